@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// map_benchmark FILE...
+// Measures, for each map file, how long loading takes beside protobuf's own parsing of the same bytes, how much memory
+// the loaded map needs and how long a nearest-lane query takes. Prints one JSON array.
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <random>
+#include <sstream>
+
+#include "external_command/core/text.h"
+#include "external_command/map/map_reader.h"
+#include "external_command/proto/base_map.pb.h"
+
+namespace external_command {
+namespace {
+
+constexpr int kRepetitions = 21;
+constexpr int kQueries = 100000;
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+/// Median duration [s] of one call.
+template <class Function>
+double medianTime(const Function& function) {
+  std::vector<double> times;
+  for (int i = 0; i < kRepetitions; ++i) {
+    const double start = now();
+    function();
+    times.push_back(now() - start);
+  }
+  std::nth_element(times.begin(), times.begin() + kRepetitions / 2, times.end());
+  return times[kRepetitions / 2];
+}
+
+/// Resident memory of this process [bytes].
+double residentBytes() {
+  std::ifstream in("/proc/self/statm");
+  double total = 0.0, resident = 0.0;
+  in >> total >> resident;
+  return resident * static_cast<double>(::sysconf(_SC_PAGESIZE));
+}
+
+/// Duration [s] of protobuf's parsing into a message of this package's description; negative for a text file.
+double parseTime(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const auto parse = [&bytes] { return proto::Map().ParsePartialFromString(bytes); };
+  return parse() ? medianTime(parse) : -1.0;
+}
+
+/// Duration [s] of one query at a random point of the map's box.
+double queryTime(const HdMap& map) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  std::vector<Point2d> points;
+  const Point2d size = map.box().max - map.box().min;
+  for (int i = 0; i < kQueries; ++i) {
+    points.push_back(map.box().min + Point2d(share(random) * size.x(), share(random) * size.y()));
+  }
+  std::size_t found = 0;
+  const double start = now();
+  for (const Point2d& point : points) found += map.nearestLane(point, {}).has_value();
+  return found == 0 ? -1.0 : (now() - start) / kQueries;
+}
+
+std::string report(const std::string& file) {
+  const double before = residentBytes();
+  auto map = readMap(file, {});
+  const double growth = residentBytes() - before;
+  const double query = queryTime(*map);
+  const std::size_t lanes = map->lanes().size();
+  map.reset();
+  const double load = medianTime([&file] { return readMap(file, {}); });
+  const double parse = parseTime(file);
+  std::ostringstream out;
+  out << "  {\"file\": \"" << file << "\", \"lanes\": " << lanes << ", \"load_ms\": " << load * 1e3;
+  if (parse > 0.0) out << ", \"protobuf_parse_ms\": " << parse * 1e3 << ", \"ratio\": " << load / parse;
+  out << ", \"memory_growth_mb\": " << growth / 1e6 << ", \"nearest_lane_us\": " << query * 1e6 << "}";
+  return out.str();
+}
+
+}  // namespace
+}  // namespace external_command
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    std::cerr << "usage: map_benchmark FILE...\n";
+    return 1;
+  }
+  try {
+    std::cout << "[\n";
+    for (int i = 1; i < argc; ++i) {
+      std::cout << external_command::report(argv[i]) << (i + 1 < argc ? ",\n" : "\n");
+    }
+    std::cout << "]\n";
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << "\n";
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "external_command/core/pose.h"
+#include "external_command/core/vehicle.h"
+
+namespace external_command {
+
+enum class Direction : std::int8_t { kForward = 1, kReverse = -1 };
+
+/// One point of a reference path of the rear-axle centre.
+struct ReferencePoint {
+  double x = 0.0;        ///< [m]
+  double y = 0.0;        ///< [m]
+  double heading = 0.0;  ///< of the vehicle, not of the motion [rad]
+  double kappa = 0.0;    ///< signed curvature of the vehicle's turn, positive to the vehicle's left [1/m]
+  double s = 0.0;        ///< distance driven from the first point, never decreasing [m]
+  double speed = 0.0;    ///< limit at this point, never negative [m/s]
+  Direction direction = Direction::kForward;  ///< the gear in which the vehicle arrives here
+  bool tool_on = false;                       ///< the vehicle arrives here working (coverage)
+
+  Pose2d pose() const { return {x, y, heading}; }
+};
+
+using Path = std::vector<ReferencePoint>;
+
+/// `first` and then `second`, whose first point is where `first` ends; `s` runs on.
+/// A vehicle that ends `first` in one gear and begins `second` in the other stops at the joint.
+Path join(const Path& first, const Path& second);
+
+/// Sets `s` of every point from the positions.
+void setArcLengths(Path* path);
+
+/// Sets `kappa` from headings and positions, leg by leg between gear changes.
+void setCurvatures(Path* path);
+
+/// Lowers each point's `speed` to what bend (lateral acceleration) and gear allow, then to what can be braked for:
+/// the last point, and every point at which the gear changes, get speed 0.
+void limitSpeeds(const VehicleParams& vehicle, Path* path);
+
+double reverseLength(const Path& path);  ///< [m]
+unsigned gearChanges(const Path& path);
+
+}  // namespace external_command

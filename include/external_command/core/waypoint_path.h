@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "external_command/core/path.h"
+
+namespace external_command {
+
+/// Points that a path passes through, in order.
+struct WaypointLine {
+  std::vector<Point2d> points;   ///< [m], at least two
+  std::vector<double> headings;  ///< of the vehicle, one per point [rad]; empty: driven forward
+};
+
+/// A stretch that bends more than the vehicle can, at its tightest place.
+struct TightBend {
+  std::size_t waypoint = 0;  ///< index of the nearest one
+  Point2d position;          ///< [m]
+  double radius = 0.0;       ///< of the bend [m]
+  double corner = 0.0;       ///< turn on the spot, where the line has a corner there [rad]; 0: it is a smooth bend
+};
+
+struct WaypointPath {
+  Path path;
+  std::vector<TightBend> tight_bends;  ///< in order along the path
+};
+
+/// @throws InvalidRequest  fewer than two points; one that is not finite or repeats the one before; a heading across
+///                         the line; a path of more than 200,000 points `spacing` [m] apart. The text names it as
+///                         `way_point[i]`, `heading[i]`.
+void checkWaypoints(const WaypointLine& line, double spacing);
+
+/// Path of the rear-axle centre through every point of `line`, at most `spacing` [m] between two of its points.
+///
+/// Where the line bends gently the path is smooth: cubic Hermite pieces that leave the straight line by 0.25 m at each
+/// end at most. Where it turns by more than that allows, it has a corner, and the path keeps to it. The vehicle
+/// reverses from one point to the next where its headings there point against the motion.
+///
+/// Speeds: `target_speed` [m/s] (0: not given), lowered to what vehicle, bends and braking allow.
+/// @throws InvalidRequest  as checkWaypoints().
+WaypointPath pathThrough(const WaypointLine& line, const VehicleParams& vehicle, double spacing, double target_speed);
+
+}  // namespace external_command

@@ -1,0 +1,6 @@
+# SPDX-License-Identifier: Apache-2.0
+from distutils.core import setup
+
+from catkin_pkg.python_setup import generate_distutils_setup
+
+setup(**generate_distutils_setup(packages=["external_command"], package_dir={"": "src"}))

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "external_command/core/path.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace external_command {
+
+namespace {
+
+constexpr double kSamePoint = 1e-6;  // [m]
+
+double stepLength(const ReferencePoint& from, const ReferencePoint& to) {
+  return std::hypot(to.x - from.x, to.y - from.y);
+}
+
+/// Points that end one leg and begin the next: the gear changes after them.
+bool isCusp(const Path& path, std::size_t i) {
+  return i > 0 && i + 1 < path.size() && path[i].direction != path[i + 1].direction;
+}
+
+/// Length of the circular arc over the chord from `from` to `to`.
+double arcLength(const ReferencePoint& from, const ReferencePoint& to) {
+  const double half = 0.5 * std::abs(angleBetween(from.heading, to.heading));
+  const double chord = stepLength(from, to);
+  return half < 1e-6 ? chord : chord * half / std::sin(half);
+}
+
+}  // namespace
+
+Path join(const Path& first, const Path& second) {
+  if (first.empty()) return second;
+  Path joined = first;
+  const bool changes_gear = first.size() > 1 && second.size() > 1 && second[1].direction != first.back().direction;
+  if (changes_gear) joined.back().speed = 0.0;
+  for (std::size_t i = 0; i < second.size(); ++i) {
+    if (i == 0 && stepLength(first.back(), second[0]) < 1e-3) continue;
+    joined.push_back(second[i]);
+  }
+  setArcLengths(&joined);
+  return joined;
+}
+
+void setArcLengths(Path* path) {
+  double s = 0.0;
+  for (std::size_t i = 0; i < path->size(); ++i) {
+    if (i > 0) s += arcLength((*path)[i - 1], (*path)[i]);
+    (*path)[i].s = s;
+  }
+}
+
+void setCurvatures(Path* path) {
+  Path& points = *path;
+  const auto turnRate = [&](std::size_t from, std::size_t to) {
+    const double length = stepLength(points[from], points[to]);
+    const double turn = angleBetween(points[from].heading, points[to].heading);
+    return length < kSamePoint ? 0.0 : turn / arcLength(points[from], points[to]);
+  };
+  for (std::size_t i = 0; i < points.size() && points.size() > 1; ++i) {
+    // A cusp belongs to the leg that arrives there; the next leg must not bend it.
+    const bool ends_leg = i + 1 == points.size() || isCusp(points, i);
+    const std::size_t from = i == 0 ? i : i - 1;
+    const std::size_t to = ends_leg ? i : i + 1;
+    const double sign = points[to].direction == Direction::kForward ? 1.0 : -1.0;
+    points[i].kappa = sign * turnRate(from, to);
+  }
+}
+
+void limitSpeeds(const VehicleParams& vehicle, Path* path) {
+  Path& points = *path;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool forward = points[i].direction == Direction::kForward;
+    double limit = forward ? vehicle.max_speed : vehicle.max_reverse_speed;
+    const double kappa = std::abs(points[i].kappa);
+    if (kappa > 1e-6) limit = std::min(limit, std::sqrt(vehicle.max_lateral_acceleration / kappa));
+    points[i].speed = std::min(points[i].speed, limit);
+    if (isCusp(points, i)) points[i].speed = 0.0;
+  }
+  if (!points.empty()) points.back().speed = 0.0;
+  for (std::size_t i = points.size(); i-- > 1;) {
+    const double braking = 2.0 * vehicle.max_deceleration * (points[i].s - points[i - 1].s);
+    points[i - 1].speed = std::min(points[i - 1].speed, std::sqrt(points[i].speed * points[i].speed + braking));
+  }
+}
+
+double reverseLength(const Path& path) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    if (path[i].direction == Direction::kReverse) length += path[i].s - path[i - 1].s;
+  }
+  return length;
+}
+
+unsigned gearChanges(const Path& path) {
+  unsigned changes = 0;
+  for (std::size_t i = 2; i < path.size(); ++i) changes += path[i].direction != path[i - 1].direction;
+  return changes;
+}
+
+}  // namespace external_command
