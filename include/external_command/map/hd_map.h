@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "external_command/core/polygon.h"
+#include "external_command/core/polyline.h"
+#include "external_command/map/map_data.h"
+
+namespace external_command {
+
+/// Position of a lane in HdMap::lanes().
+using LaneIndex = std::uint32_t;
+
+/// A lane with every reference resolved.
+struct Lane {
+  std::string id;
+  Polyline center;
+  LaneBoundary left, right;
+  std::vector<WidthSample> left_widths, right_widths;
+  double speed_limit;  ///< [m/s], 0 where the map gives none
+  LaneType type;
+  LaneTurn turn;
+  LaneDirection direction;
+  std::vector<LaneIndex> predecessors, successors;
+  std::vector<LaneIndex> left_forward, right_forward;  ///< neighbours in the same direction, drivable or not
+  std::vector<LaneIndex> left_reverse, right_reverse;  ///< neighbours in the opposite direction
+  std::string road_id;                                 ///< empty where no road names the lane
+  std::string junction_id;                             ///< empty outside junctions
+
+  double length() const { return center.length(); }
+
+  /// City driving, or shared with it: what a route may use.
+  bool isDrivable() const { return type == LaneType::kCityDriving || type == LaneType::kShared; }
+
+  /// Full width [m] at `s`, from the samples, else from the boundaries, else 3.5 m.
+  double widthAt(double s) const;
+};
+
+/// A lane under or beside a map object, by the file's overlaps.
+struct LaneOverlap {
+  LaneIndex lane;
+  double start_s;  ///< [m]
+  double end_s;    ///< [m]
+};
+
+struct Junction {
+  std::string id;
+  Polygon polygon;
+};
+
+struct ParkingSpace {
+  std::string id;
+  Polygon polygon;
+  double heading;                  ///< in which a vehicle parked nose in points [rad]
+  std::vector<LaneOverlap> lanes;  ///< empty where the map has no overlaps for it
+};
+
+struct Area {
+  std::string id;
+  std::string name;
+  Polygon polygon;
+  std::vector<LaneOverlap> lanes;
+};
+
+/// Which lanes a spatial query looks at.
+struct LaneQuery {
+  double max_distance = 1e9;             ///< from the point to the centre line [m]
+  std::optional<double> heading;         ///< only lanes whose heading at the foot point differs by at most ...
+  double max_heading_difference = M_PI;  ///< ... this much [rad]
+  bool drivable_only = true;
+};
+
+/// A lane near a point.
+struct LaneMatch {
+  LaneIndex lane = 0;
+  FrenetPoint frenet;
+  double heading = 0.0;  ///< of the lane at the foot point [rad]
+};
+
+/// An HD map: immutable once built, every query const and thread-safe, no caches.
+///
+/// Maps of the wild leave fields empty or wrong. Each of the following is counted in `warnings()` unless marked (*).
+/// Derived:
+/// - `length`: always the centre line's; a stated one is only compared with it.
+/// - `predecessors`: where no lane of the whole map states any, the inverse of the successors (*); the same the other
+///   way round.
+/// - `junction_id`: the lane's own, else its road's, else the junction that takes half of it by the overlaps (*).
+/// - lanes of an object: by the overlaps it names; where it names none, by those that name it (*).
+/// - heading of a parking space, where it is missing or lies across the space: along the longer side, away from the
+///   nearest drivable lane; with the traffic where the space lies along the lane.
+///
+/// Done without: neighbours (never derived: nothing says which line may be crossed), overlaps of parking spaces, speed
+/// limits (*), widths (*, see Lane::widthAt).
+///
+/// Dropped: lanes without an id, with an earlier lane's id, with fewer than two distinct points, with a coordinate that
+/// is not finite or beyond 1e8 m; references and overlaps that dangle; boundaries, widths and speed limits out of
+/// range; junctions, parking spaces and areas whose polygon is not simple.
+///
+/// What a file states is otherwise left as it is: a successor need not name the lane as its predecessor.
+class HdMap {
+ public:
+  /// Resolves, derives and drops as above. O(n log n).
+  /// @param origin  is subtracted from every coordinate [m].
+  /// @throws MapError  no usable lane is left.
+  HdMap(MapData data, const Point2d& origin);
+  ~HdMap();
+  HdMap(const HdMap&) = delete;
+  HdMap& operator=(const HdMap&) = delete;
+
+  const std::string& version() const;
+  const std::string& projection() const;
+  const Point2d& origin() const;
+  const BoundingBox& box() const;
+
+  const std::vector<Lane>& lanes() const;
+  const Lane& lane(LaneIndex index) const { return lanes()[index]; }
+  const std::vector<Junction>& junctions() const;
+  const std::vector<ParkingSpace>& parkingSpaces() const;
+  const std::vector<Area>& areas() const;
+  const std::vector<MapWarning>& warnings() const;
+
+  std::optional<LaneIndex> findLane(const std::string& id) const;
+  const ParkingSpace* findParkingSpace(const std::string& id) const;  ///< nullptr where there is none
+  const Area* findArea(const std::string& id) const;                  ///< nullptr where there is none
+
+  /// Lanes of a road; empty where the road is unknown (`hasRoad` tells).
+  std::vector<LaneIndex> lanesOfRoad(const std::string& road_id) const;
+  bool hasRoad(const std::string& road_id) const;
+
+  /// The nearest lane that satisfies `query`; nullopt where there is none.
+  std::optional<LaneMatch> nearestLane(const Point2d& point, const LaneQuery& query) const;
+
+  /// Every lane within `query.max_distance`, the nearest first.
+  std::vector<LaneMatch> lanesWithin(const Point2d& point, const LaneQuery& query) const;
+
+  /// The first area (in file order) that contains `point`; nullptr where none does.
+  const Area* areaAt(const Point2d& point) const;
+
+ private:
+  struct Content;
+  std::unique_ptr<const Content> content_;
+};
+
+}  // namespace external_command

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "external_command/map/hd_map.h"
+
+#include <algorithm>
+
+#include "lane_search.h"
+#include "map_content.h"
+#include "map_resolver.h"
+
+namespace external_command {
+
+namespace {
+
+template <class Table>
+auto positionOf(const Table& table, const std::string& id) -> std::optional<typename Table::mapped_type> {
+  const auto found = table.find(id);
+  if (found == table.end()) return std::nullopt;
+  return found->second;
+}
+
+}  // namespace
+
+struct HdMap::Content {
+  MapContent map;
+};
+
+HdMap::HdMap(MapData data, const Point2d& origin) : content_(new Content{resolve(std::move(data), origin)}) {}
+
+HdMap::~HdMap() = default;
+
+const std::string& HdMap::version() const { return content_->map.version; }
+const std::string& HdMap::projection() const { return content_->map.projection; }
+const Point2d& HdMap::origin() const { return content_->map.origin; }
+const BoundingBox& HdMap::box() const { return content_->map.box; }
+const std::vector<Lane>& HdMap::lanes() const { return content_->map.lanes; }
+const std::vector<Junction>& HdMap::junctions() const { return content_->map.junctions; }
+const std::vector<ParkingSpace>& HdMap::parkingSpaces() const { return content_->map.parking_spaces; }
+const std::vector<Area>& HdMap::areas() const { return content_->map.areas; }
+const std::vector<MapWarning>& HdMap::warnings() const { return content_->map.warnings; }
+
+std::optional<LaneIndex> HdMap::findLane(const std::string& id) const {
+  return positionOf(content_->map.lane_by_id, id);
+}
+
+const ParkingSpace* HdMap::findParkingSpace(const std::string& id) const {
+  const auto position = positionOf(content_->map.parking_space_by_id, id);
+  return position ? &parkingSpaces()[*position] : nullptr;
+}
+
+const Area* HdMap::findArea(const std::string& id) const {
+  const auto position = positionOf(content_->map.area_by_id, id);
+  return position ? &areas()[*position] : nullptr;
+}
+
+std::vector<LaneIndex> HdMap::lanesOfRoad(const std::string& road_id) const {
+  return positionOf(content_->map.lanes_of_road, road_id).value_or(std::vector<LaneIndex>());
+}
+
+bool HdMap::hasRoad(const std::string& road_id) const { return content_->map.lanes_of_road.count(road_id) > 0; }
+
+std::optional<LaneMatch> HdMap::nearestLane(const Point2d& point, const LaneQuery& query) const {
+  return external_command::nearestLane(content_->map, point, query);
+}
+
+std::vector<LaneMatch> HdMap::lanesWithin(const Point2d& point, const LaneQuery& query) const {
+  return external_command::lanesWithin(content_->map, point, query);
+}
+
+const Area* HdMap::areaAt(const Point2d& point) const {
+  const auto found =
+      std::find_if(areas().begin(), areas().end(), [&](const Area& area) { return area.polygon.contains(point); });
+  return found == areas().end() ? nullptr : &*found;
+}
+
+}  // namespace external_command

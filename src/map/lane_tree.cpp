@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lane_tree.h"
+
+#include <algorithm>
+
+namespace external_command {
+
+namespace {
+
+constexpr std::size_t kPieceSize = 8;  // [segments]
+
+BoundingBox boxOf(const std::vector<Point2d>& points, std::size_t first, std::size_t last) {
+  BoundingBox box{points[first], points[first]};
+  for (std::size_t i = first + 1; i <= last; ++i) {
+    box.min = box.min.cwiseMin(points[i]);
+    box.max = box.max.cwiseMax(points[i]);
+  }
+  return box;
+}
+
+}  // namespace
+
+LaneTree::LaneTree(const std::vector<Lane>& lanes) {
+  for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
+    const std::vector<Point2d>& points = lanes[lane].center.points();
+    for (std::size_t first = 0; first + 1 < points.size(); first += kPieceSize) {
+      const std::size_t last = std::min(first + kPieceSize, points.size() - 1);
+      pieces_.push_back({boxOf(points, first, last), static_cast<LaneIndex>(lane), static_cast<std::uint32_t>(first),
+                         static_cast<std::uint32_t>(last)});
+    }
+  }
+  if (!pieces_.empty()) build({0, 0, pieces_.size()});
+}
+
+void LaneTree::build(const Node& node) {
+  BoundingBox box = pieces_[node.begin].box;
+  for (std::size_t i = node.begin + 1; i < node.end; ++i) {
+    box.min = box.min.cwiseMin(pieces_[i].box.min);
+    box.max = box.max.cwiseMax(pieces_[i].box.max);
+  }
+  if (boxes_.size() <= node.index) boxes_.resize(node.index + 1);
+  boxes_[node.index] = box;
+  if (node.isLeaf()) return;
+  const Point2d size = box.max - box.min;
+  const int axis = size.x() > size.y() ? 0 : 1;
+  const auto begin = pieces_.begin();
+  std::nth_element(begin + node.begin, begin + node.middle(), begin + node.end,
+                   [axis](const LanePiece& a, const LanePiece& b) {
+                     return a.box.min[axis] + a.box.max[axis] < b.box.min[axis] + b.box.max[axis];
+                   });
+  build(node.left());
+  build(node.right());
+}
+
+}  // namespace external_command

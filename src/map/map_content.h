@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "external_command/map/hd_map.h"
+#include "lane_tree.h"
+
+namespace external_command {
+
+/// What an HdMap holds. The keys of the look-up tables are views of the objects' own ids, so a
+/// MapContent may be moved but not copied.
+struct MapContent {
+  MapContent() = default;
+  MapContent(MapContent&&) = default;
+  MapContent& operator=(MapContent&&) = delete;
+
+  std::string version;
+  std::string projection;
+  Point2d origin = Point2d::Zero();
+  BoundingBox box;
+  std::vector<Lane> lanes;
+  LaneTree tree;
+  std::vector<Junction> junctions;
+  std::vector<ParkingSpace> parking_spaces;
+  std::vector<Area> areas;
+  std::vector<MapWarning> warnings;
+
+  std::unordered_map<std::string_view, LaneIndex> lane_by_id;
+  std::unordered_map<std::string_view, std::size_t> parking_space_by_id;
+  std::unordered_map<std::string_view, std::size_t> area_by_id;
+  std::unordered_map<std::string, std::vector<LaneIndex>> lanes_of_road;
+};
+
+}  // namespace external_command

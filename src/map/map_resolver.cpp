@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "map_resolver.h"
+
+#include "external_command/core/error.h"
+#include "external_command/core/text.h"
+
+namespace external_command {
+
+namespace {
+
+void shift(const Point2d& origin, std::vector<Point2d>* points) {
+  for (Point2d& point : *points) point -= origin;
+}
+
+void shift(const Point2d& origin, MapData* data) {
+  for (LaneData& lane : data->lanes) {
+    shift(origin, &lane.center);
+    shift(origin, &lane.left.points);
+    shift(origin, &lane.right.points);
+  }
+  for (JunctionData& junction : data->junctions) shift(origin, &junction.polygon);
+  for (ParkingSpaceData& space : data->parking_spaces) shift(origin, &space.polygon);
+  for (AreaData& area : data->areas) shift(origin, &area.polygon);
+}
+
+void grow(const std::vector<Point2d>& points, BoundingBox* box) {
+  for (const Point2d& point : points) {
+    box->min = box->min.cwiseMin(point);
+    box->max = box->max.cwiseMax(point);
+  }
+}
+
+BoundingBox boxOf(const MapContent& map) {
+  const Point2d first = map.lanes.front().center.points().front();
+  BoundingBox box{first, first};
+  for (const Lane& lane : map.lanes) {
+    grow(lane.center.points(), &box);
+    grow(lane.left.points, &box);
+    grow(lane.right.points, &box);
+  }
+  for (const Junction& junction : map.junctions) grow(junction.polygon.points(), &box);
+  for (const ParkingSpace& space : map.parking_spaces) grow(space.polygon.points(), &box);
+  for (const Area& area : map.areas) grow(area.polygon.points(), &box);
+  return box;
+}
+
+}  // namespace
+
+MapContent resolve(MapData data, const Point2d& origin) {
+  if (!origin.allFinite()) throw MapError("the map origin is not finite; give two coordinates in metres");
+  MapContent map;
+  map.version = std::move(data.version);
+  map.projection = std::move(data.projection);
+  map.origin = origin;
+  map.warnings = std::move(data.warnings);
+  if (!origin.isZero(0.0)) shift(origin, &data);
+  const std::size_t stated = data.lanes.size();
+  resolveLanes(&data, &map);
+  if (map.lanes.empty()) {
+    throw MapError(stated == 0 ? "the map has no lane in it"
+                               : text("none of the map's ", stated, " lanes can be used: ", map.warnings.back().what));
+  }
+  map.tree = LaneTree(map.lanes);
+  resolveObjects(&data, &map);
+  map.box = boxOf(map);
+  return map;
+}
+
+}  // namespace external_command

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <unordered_map>
+
+#include "external_command/core/error.h"
+#include "external_command/core/text.h"
+#include "map_resolver.h"
+#include "parking_heading.h"
+#include "warning_counter.h"
+
+namespace external_command {
+
+namespace {
+
+/// Junctions, parking spaces and areas, and the lanes that overlap them.
+class ObjectResolver {
+ public:
+  ObjectResolver(MapData* data, MapContent* map) : data_(*data), map_(*map) {}
+
+  void run() {
+    indexOverlaps();
+    for (const JunctionData& junction : data_.junctions) addJunction(junction);
+    // The look-up tables refer to the ids of the objects, which therefore must not move.
+    map_.parking_spaces.reserve(data_.parking_spaces.size());
+    for (const ParkingSpaceData& space : data_.parking_spaces) addParkingSpace(space);
+    map_.areas.reserve(data_.areas.size());
+    for (const AreaData& area : data_.areas) addArea(area);
+    for (const WarningCounter* counter :
+         {&polygons_, &repeated_, &dangling_, &ranges_, &no_lanes_, &no_heading_, &bad_heading_}) {
+      counter->report(&map_.warnings);
+    }
+  }
+
+ private:
+  void indexOverlaps();
+  void addJunction(const JunctionData& junction);
+  void addParkingSpace(const ParkingSpaceData& space);
+  void addArea(const AreaData& area);
+  std::optional<Polygon> polygonOf(const std::vector<Point2d>& points, const std::string& name);
+  double headingOf(const ParkingSpaceData& space, const Polygon& polygon);
+  std::vector<LaneOverlap> lanesOf(const std::string& id, const std::vector<std::string>& overlap_ids);
+  void addLanesOf(const OverlapData& overlap, std::vector<LaneOverlap>* lanes);
+  LaneOverlap rangeOn(LaneIndex lane, const OverlapObject& object);
+
+  MapData& data_;
+  MapContent& map_;
+  std::unordered_map<std::string_view, const OverlapData*> overlap_by_id_;
+  std::unordered_map<std::string_view, std::vector<const OverlapData*>> overlaps_by_object_;  // lanes left out
+  WarningCounter polygons_{"map objects dropped whose polygon cannot be used"};
+  WarningCounter repeated_{"parking spaces and areas dropped whose id is empty or an earlier one's"};
+  WarningCounter dangling_{"references to overlaps, or of overlaps to lanes, that do not exist"};
+  WarningCounter ranges_{"overlaps without a usable range on their lane, all of which is taken"};
+  WarningCounter no_lanes_{"parking spaces that no lane overlaps; the lanes to park from are found by distance"};
+  WarningCounter no_heading_{"parking spaces without a heading, which was derived from their shape"};
+  WarningCounter bad_heading_{"parking spaces whose stated heading lies across them; it was derived from their shape"};
+};
+
+void ObjectResolver::indexOverlaps() {
+  for (const OverlapData& overlap : data_.overlaps) {
+    overlap_by_id_.emplace(overlap.id, &overlap);
+    for (const OverlapObject& object : overlap.objects) {
+      if (!object.is_lane) overlaps_by_object_[object.id].push_back(&overlap);
+    }
+  }
+}
+
+std::optional<Polygon> ObjectResolver::polygonOf(const std::vector<Point2d>& points, const std::string& name) {
+  try {
+    return Polygon(points, name);
+  } catch (const InvalidRequest& error) {
+    polygons_.add(error.what());
+    return std::nullopt;
+  }
+}
+
+/// A lane is inside a junction by an overlap that takes at least half of it.
+void ObjectResolver::addJunction(const JunctionData& junction) {
+  if (auto polygon = polygonOf(junction.polygon, "junction " + junction.id)) {
+    map_.junctions.push_back({junction.id, *std::move(polygon)});
+  }
+  for (const LaneOverlap& overlap : lanesOf(junction.id, {})) {
+    Lane& lane = map_.lanes[overlap.lane];
+    if (lane.junction_id.empty() && overlap.end_s - overlap.start_s >= lane.length() / 2.0) {
+      lane.junction_id = junction.id;
+    }
+  }
+}
+
+void ObjectResolver::addParkingSpace(const ParkingSpaceData& space) {
+  if (space.id.empty() || map_.parking_space_by_id.count(space.id) > 0) {
+    return repeated_.add("parking space \"", space.id, "\"");
+  }
+  const auto polygon = polygonOf(space.polygon, "parking space " + space.id);
+  if (!polygon) return;
+  std::vector<LaneOverlap> lanes = lanesOf(space.id, space.overlaps);
+  if (lanes.empty()) no_lanes_.add(space.id);
+  map_.parking_spaces.push_back({space.id, *polygon, headingOf(space, *polygon), std::move(lanes)});
+  map_.parking_space_by_id.emplace(map_.parking_spaces.back().id, map_.parking_spaces.size() - 1);
+}
+
+double ObjectResolver::headingOf(const ParkingSpaceData& space, const Polygon& polygon) {
+  if (!space.has_heading || !std::isfinite(space.heading)) {
+    no_heading_.add(space.id);
+  } else if (!fitsParkingSpace(polygon, space.heading)) {
+    bad_heading_.add(space.id, ": ", space.heading, " rad");
+  } else {
+    return normalizeAngle(space.heading);
+  }
+  return derivedParkingHeading(map_, polygon);
+}
+
+void ObjectResolver::addArea(const AreaData& area) {
+  if (area.id.empty() || map_.area_by_id.count(area.id) > 0) return repeated_.add("area \"", area.id, "\"");
+  auto polygon = polygonOf(area.polygon, "area " + area.id);
+  if (!polygon) return;
+  map_.areas.push_back({area.id, area.name, *std::move(polygon), lanesOf(area.id, area.overlaps)});
+  map_.area_by_id.emplace(map_.areas.back().id, map_.areas.size() - 1);
+}
+
+/// By the overlaps that the object names; where it names none, by those that name the object.
+std::vector<LaneOverlap> ObjectResolver::lanesOf(const std::string& id, const std::vector<std::string>& overlap_ids) {
+  std::vector<LaneOverlap> lanes;
+  for (const std::string& overlap_id : overlap_ids) {
+    const auto found = overlap_by_id_.find(overlap_id);
+    if (found == overlap_by_id_.end()) {
+      dangling_.add("overlap ", overlap_id, " of ", id);
+    } else {
+      addLanesOf(*found->second, &lanes);
+    }
+  }
+  const auto naming = overlaps_by_object_.find(id);
+  if (overlap_ids.empty() && naming != overlaps_by_object_.end()) {
+    for (const OverlapData* overlap : naming->second) addLanesOf(*overlap, &lanes);
+  }
+  return lanes;
+}
+
+void ObjectResolver::addLanesOf(const OverlapData& overlap, std::vector<LaneOverlap>* lanes) {
+  for (const OverlapObject& object : overlap.objects) {
+    if (!object.is_lane) continue;
+    const auto found = map_.lane_by_id.find(object.id);
+    if (found == map_.lane_by_id.end()) {
+      dangling_.add("lane ", object.id, " of overlap ", overlap.id);
+    } else {
+      lanes->push_back(rangeOn(found->second, object));
+    }
+  }
+}
+
+LaneOverlap ObjectResolver::rangeOn(LaneIndex lane, const OverlapObject& object) {
+  const double length = map_.lanes[lane].length();
+  if (!(object.start_s <= object.end_s && std::isfinite(object.start_s) && std::isfinite(object.end_s))) {
+    ranges_.add("lane ", object.id, ": s ", object.start_s, " to ", object.end_s);
+    return {lane, 0.0, length};
+  }
+  return {lane, std::clamp(object.start_s, 0.0, length), std::clamp(object.end_s, 0.0, length)};
+}
+
+}  // namespace
+
+void resolveObjects(MapData* data, MapContent* map) { ObjectResolver(data, map).run(); }
+
+}  // namespace external_command
