@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "external_command/routing/router.h"
+
+namespace external_command {
+
+struct LaneWayParams {
+  double snap_distance = 3.0;            ///< from a pose with heading to its lane, at most [m]
+  double snap_heading = 1.0;             ///< between pose and lane, at most [rad]
+  double off_lane_distance = 2.0;        ///< a vehicle with no lane this near ... [m]
+  double off_lane_heading = M_PI / 3.0;  ///< ... and within this of its heading [rad] is off the lanes (park-and-go)
+  double park_and_go_radius = 20.0;      ///< it then starts from any lane this near [m]
+  double parking_lane_radius = 20.0;     ///< lanes beside a parking space without overlaps, at most [m]
+
+  /// @throws InvalidParameter  out of range.
+  void validate() const;
+};
+
+/// From poses to points on lanes. Only drivable lanes count. Const and thread-safe; refers to `map`, which must outlive
+/// it.
+class LaneWayTool {
+ public:
+  LaneWayTool(const HdMap& map, const LaneWayParams& params);
+
+  /// The nearest lane within `snap_distance` and `snap_heading` where a heading is given; the nearest at all where not.
+  /// @param name  of the field, "end_pose": error texts begin with it.
+  /// @throws OffMap  none is; the text names the nearest lane, its distance and heading difference, and the limit.
+  LanePoint fromPose(const Point2d& point, const std::optional<double>& heading, const std::string& name) const;
+
+  /// A point that is given by its lane.
+  /// @param name  of the field, "waypoint[1]": error texts begin with it.
+  /// @throws InvalidRequest  no such lane, none to drive on, or `s` lies more than 0.1 m outside it.
+  LanePoint fromLane(const std::string& id, double s, const std::string& name) const;
+
+  /// Candidates for the start: the vehicle's own lane (one candidate), or, for a vehicle off the lanes, every lane
+  /// within `park_and_go_radius`, of which routing picks the one with the shortest route.
+  /// @throws OffMap  no lane within that radius.
+  /// @throws InvalidRequest  the pose is not finite.
+  std::vector<LanePoint> fromVehicle(const Pose2d& vehicle) const;
+
+  /// True where `vehicle` is away from any lane.
+  bool isOffLane(const Pose2d& vehicle) const;
+
+  /// Candidates to park from: on each lane that overlaps the space, the point abreast of it; where the map has no
+  /// overlaps the drivable lanes within `parking_lane_radius` (`used_geometry` is then set).
+  /// @throws InvalidRequest  no such parking space: the text names the id.
+  /// @throws OffMap  no lane is near it.
+  std::vector<LanePoint> fromParkingSpace(const std::string& id, bool* used_geometry) const;
+
+  /// Every drivable lane within `radius` [m] of `point`, the nearest first.
+  std::vector<LanePoint> within(const Point2d& point, double radius) const;
+
+ private:
+  const HdMap& map_;
+  LaneWayParams params_;
+};
+
+}  // namespace external_command

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "external_command/routing/black_list.h"
+
+#include <algorithm>
+
+#include "external_command/core/text.h"
+
+namespace external_command {
+
+namespace {
+
+LaneRange rangeOf(const HdMap& map, const BlackListedLane& part, const std::string& name) {
+  const auto lane = map.findLane(part.id);
+  if (!lane) throw InvalidRequest(text(name, " names lane '", part.id, "', which the map does not have"));
+  const double length = map.lane(*lane).length();
+  if (part.start_s == 0.0 && part.end_s == 0.0) return {*lane, 0.0, length};
+  if (part.start_s > part.end_s || part.start_s > length || part.end_s < 0.0) {
+    throw InvalidRequest(text(name, " goes from s ", part.start_s, " to ", part.end_s, " m; lane ", part.id,
+                              " goes from 0 to ", length, " m (both 0: the whole lane)"));
+  }
+  return {*lane, std::max(part.start_s, 0.0), std::min(part.end_s, length)};
+}
+
+}  // namespace
+
+std::vector<LaneRange> blackList(const HdMap& map, const std::vector<BlackListedLane>& lanes,
+                                 const std::vector<std::string>& roads) {
+  std::vector<LaneRange> ranges;
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    ranges.push_back(rangeOf(map, lanes[i], text("blacklisted_lane[", i, "]")));
+  }
+  for (std::size_t i = 0; i < roads.size(); ++i) {
+    if (!map.hasRoad(roads[i])) {
+      throw InvalidRequest(text("blacklisted_road[", i, "] names road '", roads[i], "', which the map does not have"));
+    }
+    for (const LaneIndex lane : map.lanesOfRoad(roads[i])) ranges.push_back({lane, 0.0, map.lane(lane).length()});
+  }
+  return ranges;
+}
+
+}  // namespace external_command

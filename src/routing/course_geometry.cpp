@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "course_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace external_command {
+
+namespace {
+
+constexpr double kTiny = 1e-6;           // [m]
+constexpr double kQuinticPeak = 5.7735;  // largest second derivative of the quintic below: 10 / sqrt(3)
+constexpr double kLead = 5.0;            // [m]
+constexpr double kFullLock = 0.9;        // share of the vehicle's curvature that a smooth change may take
+
+/// From 0 to 1 with neither slope nor curvature at the ends.
+double quintic(double t) { return t * t * t * (10.0 + t * (-15.0 + t * 6.0)); }
+
+/// The same way on two circular arcs, for a change of `length` over `offset` [m].
+double twoArcs(double t, double length, double offset) {
+  const double radius = (length * length + offset * offset) / (4.0 * offset);
+  const double x = length * std::min(t, 1.0 - t);
+  const double share = (radius - std::sqrt(std::max(0.0, radius * radius - x * x))) / offset;
+  return t < 0.5 ? share : 1.0 - share;
+}
+
+}  // namespace
+
+CoursePoint CourseGeometry::Walker::at(double s) {
+  while (next_ + 1 < line_->s.size() && line_->s[next_] < s) ++next_;
+  const double from = line_->s[next_ - 1], to = line_->s[next_];
+  const double share = to > from ? std::clamp((s - from) / (to - from), 0.0, 1.0) : 1.0;
+  const Point2d& begin = line_->points[next_ - 1];
+  return {begin + share * (line_->points[next_] - begin), line_->limits[next_]};
+}
+
+CourseGeometry::CourseGeometry(const HdMap& map, const Route& route, const VehicleParams& vehicle,
+                               const ReferencePathParams& params)
+    : default_limit_(params.default_speed_limit) {
+  const std::vector<RouteRow> rows = rowsOf(route);
+  for (const RouteRow& row : rows) {
+    lines_.push_back(lineOf(map, row, &row == &rows.front() ? kLead : 0.0, &row == &rows.back() ? kLead : 0.0));
+  }
+  double done = 0.0;  // on the line of the row
+  for (std::size_t r = 0; r + 1 < rows.size(); ++r) {
+    const double end = lines_[r].end;
+    const double leave = std::max(done, end - (rows[r].length - rows[r].leave));
+    const double share = std::min(1.0, params.lane_change_length / std::max(rows[r + 1].onto, kTiny));
+    addAlong(r, done, leave);
+    done = share * rows[r + 1].onto;
+    addAcross(r, leave, leave + share * (end - leave), done, kFullLock * vehicle.maxKappa());
+  }
+  addAlong(rows.size() - 1, std::min(done, lines_.back().end), lines_.back().end);
+}
+
+CourseGeometry::Line CourseGeometry::lineOf(const HdMap& map, const RouteRow& row, double lead_in,
+                                            double lead_out) const {
+  std::vector<LaneRange> pieces = row.pieces;
+  lead_in = std::min(lead_in, pieces.front().from_s);
+  lead_out = std::min(lead_out, map.lane(pieces.back().lane).length() - pieces.back().to_s);
+  pieces.front().from_s -= lead_in;
+  pieces.back().to_s += lead_out;
+  Line line;
+  const auto add = [&](const Point2d& point, double limit) {
+    line.s.push_back(line.s.empty() ? -lead_in : line.s.back() + (point - line.points.back()).norm());
+    line.points.push_back(point);
+    line.limits.push_back(limit);
+  };
+  for (const LaneRange& piece : pieces) {
+    const Lane& lane = map.lane(piece.lane);
+    const double limit = lane.speed_limit > 0.0 ? lane.speed_limit : default_limit_;
+    const std::vector<double>& s = lane.center.arcLengths();
+    add(lane.center.pointAt(piece.from_s), limit);
+    for (auto next = std::upper_bound(s.begin(), s.end(), piece.from_s); next != s.end() && *next < piece.to_s;
+         ++next) {
+      add(lane.center.points()[static_cast<std::size_t>(next - s.begin())], limit);
+    }
+    add(lane.center.pointAt(piece.to_s), limit);
+  }
+  line.end = line.s.back() - lead_out;
+  return line;
+}
+
+void CourseGeometry::addAlong(std::size_t line, double from, double to) {
+  const double begin = stretches_.empty() ? 0.0 : length();
+  stretches_.push_back({line, from, to, 0.0, 0.0, false, begin, begin + to - from, {}});
+}
+
+void CourseGeometry::addAcross(std::size_t line, double from, double to, double onto_to, double max_kappa) {
+  std::vector<Walker> walkers = this->walkers();
+  const double offset = (walkers[line].at(from).position - walkers[line + 1].at(0.0).position).norm();
+  Stretch stretch{line, from, to, onto_to, offset, false, length(), length(), {}};
+  stretch.in_arcs = kQuinticPeak * offset > max_kappa * stretch.ahead() * stretch.ahead();
+  Point2d last = across(stretch, 0.0, &walkers).position;
+  for (std::size_t part = 1; part <= kParts; ++part) {
+    const Point2d next = across(stretch, static_cast<double>(part) / kParts, &walkers).position;
+    stretch.reached[part] = stretch.reached[part - 1] + (next - last).norm();
+    last = next;
+  }
+  stretch.end += stretch.reached.back();
+  stretches_.push_back(stretch);
+}
+
+std::vector<CoursePoint> CourseGeometry::sample(double step, std::size_t before, std::size_t after) const {
+  std::vector<Walker> walkers = this->walkers();
+  std::vector<CoursePoint> points;
+  points.reserve(before + 1 + after);
+  auto stretch = stretches_.begin();
+  for (std::size_t i = 0; i <= before + after; ++i) {
+    const double x = step * (static_cast<double>(i) - static_cast<double>(before));
+    while (x > stretch->end && stretch + 1 != stretches_.end()) ++stretch;
+    const double driven = x - stretch->begin;
+    if (stretch->onto_to <= 0.0 || driven < 0.0) {
+      points.push_back(walkers[stretch->line].at(stretch->from + driven));
+      continue;
+    }
+    const auto next = std::upper_bound(stretch->reached.begin() + 1, stretch->reached.end() - 1, driven);
+    const double share = (driven - *(next - 1)) / std::max(*next - *(next - 1), kTiny);
+    const double part = static_cast<double>(next - 1 - stretch->reached.begin()) + share;
+    points.push_back(across(*stretch, std::min(part / kParts, 1.0), &walkers));
+  }
+  return points;
+}
+
+/// The place at the share `t` of the way across.
+CoursePoint CourseGeometry::across(const Stretch& stretch, double t, std::vector<Walker>* walkers) const {
+  const double share = stretch.in_arcs ? twoArcs(t, stretch.ahead(), stretch.offset) : quintic(t);
+  const CoursePoint from = (*walkers)[stretch.line].at(stretch.from + t * (stretch.to - stretch.from));
+  const CoursePoint onto = (*walkers)[stretch.line + 1].at(t * stretch.onto_to);
+  return {from.position + share * (onto.position - from.position), std::min(from.speed_limit, onto.speed_limit)};
+}
+
+}  // namespace external_command

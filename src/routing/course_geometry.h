@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "external_command/routing/reference_path.h"
+#include "route_rows.h"
+
+namespace external_command {
+
+/// A place on the course, and the speed limit there.
+struct CoursePoint {
+  Point2d position = Point2d::Zero();
+  double speed_limit = 0.0;  ///< [m/s]
+};
+
+/// The line that a route draws on the map: centre lines, and from one to the other on lane changes.
+class CourseGeometry {
+ public:
+  CourseGeometry(const HdMap& map, const Route& route, const VehicleParams& vehicle, const ReferencePathParams& params);
+
+  double length() const { return stretches_.back().end; }  ///< [m]
+
+  /// How far the first lane goes on before the start, and the last one after the end, at most 5 m [m].
+  double leadIn() const { return -lines_.front().s.front(); }
+  double leadOut() const { return lines_.back().s.back() - lines_.back().end; }
+
+  /// Places `step` [m] apart: `before` of them ahead of the start, the start, and `after` more.
+  std::vector<CoursePoint> sample(double step, std::size_t before, std::size_t after) const;
+
+ private:
+  /// A centre line, lanes one after the other, with the distance along it and the limit up to each point.
+  struct Line {
+    std::vector<Point2d> points;
+    std::vector<double> s;
+    std::vector<double> limits;
+    double end = 0.0;  // of the route; the line goes on beyond it
+  };
+
+  /// Walks a line in one direction.
+  class Walker {
+   public:
+    explicit Walker(const Line& line) : line_(&line) {}
+    CoursePoint at(double s);
+
+   private:
+    const Line* line_;
+    std::size_t next_ = 1;
+  };
+
+  static constexpr std::size_t kParts = 16;
+
+  /// A part of the course: along one line, or across from it to the beginning of the next.
+  struct Stretch {
+    std::size_t line;
+    double from, to;                         // on the line [m]
+    double onto_to;                          // how far along the next line it leads across; 0: not at all [m]
+    double offset;                           // between the two lines [m]
+    bool in_arcs;                            // across in two arcs, for want of room for a smooth sweep
+    double begin, end;                       // on the course [m]
+    std::array<double, kParts + 1> reached;  // across: driven after each part of the way [m]
+
+    double ahead() const { return 0.5 * (to - from + onto_to); }
+  };
+
+  Line lineOf(const HdMap& map, const RouteRow& row, double lead_in, double lead_out) const;
+  void addAlong(std::size_t line, double from, double to);
+  void addAcross(std::size_t line, double from, double to, double onto_to, double max_kappa);
+  CoursePoint across(const Stretch& stretch, double t, std::vector<Walker>* walkers) const;
+  std::vector<Walker> walkers() const { return {lines_.begin(), lines_.end()}; }
+
+  double default_limit_;
+  std::vector<Line> lines_;
+  std::vector<Stretch> stretches_;
+};
+
+}  // namespace external_command

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "external_command/map/hd_map.h"
+#include "lane_pair.h"
+
+namespace external_command {
+
+/// A run of elements inside one flat array.
+template <class T>
+class Span {
+ public:
+  Span(const T* begin, const T* end) : begin_(begin), end_(end) {}
+  explicit Span(const T* single) : Span(single, single + 1) {}
+  const T* begin() const { return begin_; }
+  const T* end() const { return end_; }
+
+ private:
+  const T *begin_, *end_;
+};
+
+/// The routable lanes of a map as flat arrays: which lane leads into which, and which lies beside which. Immutable.
+class LaneGraph {
+ public:
+  /// A lane beside another, and where the line between them may be crossed.
+  struct Neighbour {
+    LanePair pair;
+    std::uint32_t first_part, last_part;
+  };
+
+  explicit LaneGraph(const HdMap& map);
+
+  std::size_t size() const { return lengths_.size(); }
+  double length(LaneIndex lane) const { return lengths_[lane]; }
+  bool isRoutable(LaneIndex lane) const { return routable_[lane]; }
+
+  Span<LaneIndex> successors(LaneIndex lane) const {
+    return {successors_.data() + first_successor_[lane], successors_.data() + first_successor_[lane + 1]};
+  }
+
+  Span<Neighbour> neighbours(LaneIndex lane) const {
+    return {neighbours_.data() + first_neighbour_[lane], neighbours_.data() + first_neighbour_[lane + 1]};
+  }
+
+  /// Ranges of `s` on the lane that has this neighbour, rising.
+  Span<Interval> crossableParts(const Neighbour& neighbour) const {
+    return {parts_.data() + neighbour.first_part, parts_.data() + neighbour.last_part};
+  }
+
+  /// `b` as a neighbour of `a` on this side; nullptr where it is none.
+  const Neighbour* findNeighbour(LaneIndex a, LaneIndex b, LaneChange side) const;
+
+ private:
+  void addNeighbour(const HdMap& map, LaneIndex a, LaneIndex b, LaneChange side);
+
+  std::vector<double> lengths_;
+  std::vector<bool> routable_;
+  std::vector<std::uint32_t> first_successor_, first_neighbour_;
+  std::vector<LaneIndex> successors_;
+  std::vector<Neighbour> neighbours_;
+  std::vector<Interval> parts_;
+};
+
+}  // namespace external_command

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "no_route.h"
+
+#include <algorithm>
+
+#include "external_command/core/text.h"
+#include "route_builder.h"
+#include "route_search.h"
+
+namespace external_command {
+
+namespace {
+
+constexpr std::size_t kMostNamed = 5;
+
+std::string pointName(const RouteQuery& query, std::size_t index) {
+  if (index == 0) return "start";
+  return index <= query.via.size() ? text("way_point[", index - 1, "]") : "goal";
+}
+
+const std::vector<LanePoint>& candidatesOf(const RouteQuery& query, std::size_t index) {
+  if (index == 0) return query.starts;
+  return index <= query.via.size() ? query.via[index - 1] : query.goals;
+}
+
+/// "goal (lane_7 at 12.00 m)", or how many candidates there are.
+std::string described(const HdMap& map, const RouteQuery& query, std::size_t index) {
+  const std::vector<LanePoint>& candidates = candidatesOf(query, index);
+  const LanePoint& first = candidates.front();
+  const std::string place = text("lane ", map.lane(first.lane).id, " at ", metres(first.s));
+  if (candidates.size() == 1) return text(pointName(query, index), " (", place, ")");
+  return text(pointName(query, index), " (", candidates.size(), " candidates, the first ", place, ")");
+}
+
+/// Names the black list entries that `route` runs into.
+std::string cutLanes(const HdMap& map, const std::vector<LaneRange>& black_list, const Route& route) {
+  std::vector<std::string> ids;
+  for (const RouteStep& step : route.steps) {
+    const bool is_cut = std::any_of(black_list.begin(), black_list.end(), [&](const LaneRange& range) {
+      return range.lane == step.lane && range.from_s <= step.to_s && range.to_s >= step.from_s;
+    });
+    const std::string& id = map.lane(step.lane).id;
+    if (is_cut && std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
+  }
+  std::string names;
+  for (std::size_t i = 0; i < std::min(ids.size(), kMostNamed); ++i) names += (i > 0 ? ", " : "") + ids[i];
+  if (ids.size() > kMostNamed) names += text(" and ", ids.size() - kMostNamed, " more");
+  return names;
+}
+
+/// The first change of a route that was found without asking for room, if there is one.
+std::string tightChange(const HdMap& map, const Route& route) {
+  for (std::size_t i = 0; i + 1 < route.steps.size(); ++i) {
+    if (route.steps[i].change_after == LaneChange::kNone) continue;
+    return text("from lane ", map.lane(route.steps[i].lane).id, " to lane ", map.lane(route.steps[i + 1].lane).id);
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string whyNoRoute(const HdMap& map, const LaneGraph& graph, const RouterParams& params, const RouteQuery& query,
+                       const CancelToken& cancel) {
+  const BlockedLanes blocked(query.black_list), free({});
+  const SearchResult failed = RouteSearch(graph, params, ChangeRule::kWithRoom).run(query, blocked, cancel);
+  const std::string what = text("no route from ", described(map, query, failed.failed_leg), " to ",
+                                described(map, query, failed.failed_leg + 1));
+  for (const std::size_t end : {failed.failed_leg, failed.failed_leg + 1}) {
+    const std::vector<LanePoint>& candidates = candidatesOf(query, end);
+    const bool all_blocked = std::all_of(candidates.begin(), candidates.end(),
+                                         [&](const LanePoint& point) { return blocked.contains(point.lane, point.s); });
+    if (all_blocked) return text(what, ": the black list covers the ", pointName(query, end));
+  }
+  const SearchResult squeezed = RouteSearch(graph, params, ChangeRule::kWithoutRoom).run(query, blocked, cancel);
+  if (!squeezed.labels.empty()) {
+    return text(what, ": there is no room to change lanes, ",
+                tightChange(map, buildRoute(graph, blocked, squeezed.labels)), " for one; a change needs ",
+                metres(params.min_lane_change_length),
+                " (~min_lane_change_length), or at least two arcs of the turning radius of ",
+                metres(params.min_turning_radius));
+  }
+  if (!query.black_list.empty()) {
+    const SearchResult unblocked = RouteSearch(graph, params, ChangeRule::kWithRoom).run(query, free, cancel);
+    if (!unblocked.labels.empty()) {
+      return text(what, ": the black list cuts it at lane ",
+                  cutLanes(map, query.black_list, buildRoute(graph, free, unblocked.labels)),
+                  "; without the black list there is a route");
+    }
+  }
+  return text(what, ": ", failed.reached_lanes, " lanes of ", map.lanes().size(),
+              " were reached, none of which leads there",
+              query.black_list.empty() ? "" : ", with or without the black list");
+}
+
+}  // namespace external_command

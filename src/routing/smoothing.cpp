@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "smoothing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace external_command {
+
+namespace {
+
+constexpr std::size_t kBand = 3;   // off-diagonals of the system of equations
+constexpr double kHeld = 1e9;      // weight of the points that stay
+constexpr double kSettled = 40.0;  // scales after which the factors no longer change, away from the ends
+constexpr double kThird[] = {-1.0, 3.0, -3.0, 1.0};
+
+/// One row of the symmetric band matrix, or of its factors L D L^T: the diagonal, then what stands left of it, the
+/// nearest first.
+struct Row {
+  double diagonal = 0.0;
+  std::array<double, kBand> left{};
+};
+
+class System {
+ public:
+  System(std::size_t count, std::size_t first, std::size_t last, double scale)
+      : count_(count), first_(first), last_(last), lambda_(std::pow(scale, 6.0)) {
+    settled_ = first + static_cast<std::size_t>(kSettled * std::max(scale, 1.0));
+  }
+
+  std::vector<Row> factorize() const {
+    std::vector<Row> rows(count_);
+    for (std::size_t i = 0; i < count_; ++i) {
+      const bool is_settled = i > settled_ && i < last_ && i + kBand < count_;
+      rows[i] = is_settled ? rows[i - 1] : factor(rows, i);
+    }
+    return rows;
+  }
+
+ private:
+  /// Row `i` of W + lambda D^T D, where D takes third differences.
+  Row row(std::size_t i) const {
+    Row row;
+    row.diagonal = i == first_ || i == last_ ? kHeld : 1.0;
+    for (std::size_t j = i < kBand ? 0 : i - kBand; j <= i && j + kBand < count_; ++j) {
+      const double own = lambda_ * kThird[i - j];
+      row.diagonal += own * kThird[i - j];
+      for (std::size_t k = 1; k <= i - j; ++k) row.left[k - 1] += own * kThird[i - j - k];
+    }
+    return row;
+  }
+
+  Row factor(const std::vector<Row>& rows, std::size_t i) const {
+    Row row = this->row(i);
+    for (std::size_t k = std::min(i, kBand); k >= 1; --k) {
+      const Row& other = rows[i - k];
+      for (std::size_t m = k + 1; m <= std::min(i, kBand); ++m) {
+        row.left[k - 1] -= row.left[m - 1] * other.left[m - k - 1] * rows[i - m].diagonal;
+      }
+      row.left[k - 1] /= other.diagonal;
+      row.diagonal -= row.left[k - 1] * row.left[k - 1] * other.diagonal;
+    }
+    return row;
+  }
+
+  std::size_t count_, first_, last_, settled_;
+  double lambda_;
+};
+
+}  // namespace
+
+void smooth(double scale, std::size_t first, std::size_t last, std::vector<Point2d>* points) {
+  const std::size_t count = points->size();
+  if (count <= kBand) return;
+  const std::vector<Row> rows = System(count, first, last, scale).factorize();
+  std::vector<Point2d>& p = *points;
+  const Point2d begin = p[first], end = p[last];
+  for (Point2d& point : p) point -= begin;  // map coordinates would eat the digits
+  p[last] *= kHeld;
+  for (std::size_t i = 1; i < count; ++i) {
+    for (std::size_t k = 1; k <= std::min(i, kBand); ++k) p[i] -= rows[i].left[k - 1] * p[i - k];
+  }
+  for (std::size_t i = 0; i < count; ++i) p[i] /= rows[i].diagonal;
+  for (std::size_t i = count - 1; i-- > 0;) {
+    for (std::size_t k = 1; k <= std::min(count - 1 - i, kBand); ++k) p[i] -= rows[i + k].left[k - 1] * p[i + k];
+  }
+  for (Point2d& point : p) point += begin;
+  p[first] = begin;
+  p[last] = end;
+}
+
+}  // namespace external_command
