@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <memory>
+#include <string>
+
+#include "external_command/ros/dedicated_lane.h"
+#include "external_command/ros/markers.h"
+
+namespace external_command {
+
+struct DisplayParams {
+  std::string path_topic;
+  std::string markers_topic;
+  std::string map_frame;
+  std::string base_frame;
+  VehicleParams vehicle;
+};
+
+/// Shows map and commands in rviz, on a thread of its own: drawing never delays an answer. Thread-safe.
+/// The map goes to each subscriber once, when it connects; after that only what a command changes is sent.
+class Display {
+ public:
+  /// @param map  may be nullptr.
+  Display(ros::NodeHandle nh, const DisplayParams& params, std::shared_ptr<const HdMap> map);
+  ~Display() { lane_.stop(); }
+
+  /// Draws `scene` in place of the last command's and publishes its path.
+  void show(CommandScene scene);
+
+  /// Draws `scene` of a command that was refused; the running command's path stays as it is.
+  void showRefused(CommandScene scene);
+
+ private:
+  void greet(const ros::SingleSubscriberPublisher& subscriber) const;
+
+  const DisplayParams params_;
+  const std::shared_ptr<const HdMap> map_;
+  DedicatedLane lane_;  // before the publisher that is bound to its queue
+  ros::Publisher path_publisher_, markers_publisher_;
+};
+
+}  // namespace external_command

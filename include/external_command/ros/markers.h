@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nav_msgs/Path.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "external_command/core/path.h"
+#include "external_command/routing/router.h"
+
+namespace external_command {
+
+/// What a command has to show; all in the map frame [m, rad]. Empty parts are not drawn.
+struct CommandScene {
+  std::optional<Route> route;
+  Path path;
+  std::optional<Pose2d> start;
+  std::vector<Point2d> way_points;
+  std::optional<Pose2d> goal;
+  std::vector<std::vector<Point2d>> regions;    ///< drivable polygons
+  std::vector<std::vector<Point2d>> obstacles;  ///< non-drivable polygons
+  std::vector<std::vector<Point2d>> conflicts;  ///< what stood in the way, or was left uncovered
+  bool with_footprints = false;                 ///< draw the vehicle's footprint along the path
+};
+
+/// The map: lane surfaces, centre lines, boundaries, junctions, parking spaces, areas; few markers with many points.
+visualization_msgs::MarkerArray mapMarkers(const HdMap& map, const std::string& frame);
+
+/// The vehicle's outline, which rviz moves along with `base_frame`.
+visualization_msgs::Marker vehicleMarker(const VehicleParams& vehicle, const std::string& base_frame);
+
+/// The scene of one command. Parts that are empty are deleted from the display.
+/// @param map  that of the scene's route; may be nullptr where it has none.
+visualization_msgs::MarkerArray commandMarkers(const CommandScene& scene, const HdMap* map,
+                                               const VehicleParams& vehicle, const std::string& frame);
+
+/// The path for ordinary ROS controllers and rviz.
+nav_msgs::Path toNavPath(const Path& path, const std::string& frame);
+
+}  // namespace external_command

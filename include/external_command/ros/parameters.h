@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <string>
+#include <vector>
+
+#include "external_command/core/vehicle.h"
+#include "external_command/map/map_reader.h"
+#include "external_command/routing/lane_way_tool.h"
+#include "external_command/routing/reference_path.h"
+
+namespace external_command {
+
+/// Reads parameters of one namespace. A missing one leaves the default; one of the wrong type stops the start.
+class ParameterReader {
+ public:
+  explicit ParameterReader(const ros::NodeHandle& nh) : nh_(nh) {}
+
+  /// @throws InvalidParameter  the value has another type; the text names the parameter and what was found.
+  void read(const std::string& key, bool* value) const;
+  void read(const std::string& key, int* value) const;
+  void read(const std::string& key, double* value) const;  ///< takes whole numbers too
+  void read(const std::string& key, std::string* value) const;
+  void read(const std::string& key, std::vector<std::string>* value) const;
+
+  /// The same, and `*value` must lie in [low, high].
+  /// @throws InvalidParameter  also where it does not; the text names the range.
+  void readWithin(const std::string& key, double low, double high, double* value) const;
+  void readWithin(const std::string& key, int low, int high, int* value) const;
+
+  bool has(const std::string& key) const { return nh_.hasParam(key); }
+  ParameterReader within(const std::string& name) const { return ParameterReader(ros::NodeHandle(nh_, name)); }
+  std::string nameOf(const std::string& key) const { return nh_.resolveName(key); }
+
+  /// The raw value; false where there is none.
+  bool raw(const std::string& key, XmlRpc::XmlRpcValue* value) const { return nh_.getParam(key, *value); }
+
+ private:
+  ros::NodeHandle nh_;
+};
+
+/// Readers of the plain structs; each validates what it read.
+VehicleParams readVehicleParams(const ParameterReader& reader);
+RouterParams readRouterParams(const ParameterReader& reader);
+LaneWayParams readLaneWayParams(const ParameterReader& reader);
+ReferencePathParams readReferencePathParams(const ParameterReader& reader);
+
+/// `map_origin`: "none" (default), "auto", or [x, y] in the map's coordinates [m].
+MapOrigin readMapOrigin(const ParameterReader& reader);
+
+}  // namespace external_command

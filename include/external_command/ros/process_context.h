@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "external_command/ros/command_gate.h"
+#include "external_command/ros/command_registry.h"
+#include "external_command/ros/dedicated_lane.h"
+#include "external_command/ros/display.h"
+#include "external_command/ros/parameters.h"
+#include "external_command/ros/vehicle_pose.h"
+
+namespace external_command {
+
+/// What all processors of one namespace share. Read once, by whoever makes the context.
+struct ContextParams {
+  std::string map_file;  ///< empty: no map
+  MapOrigin map_origin;
+  std::string map_frame = "map";
+  std::string base_frame = "base_link";
+  double max_pose_age = 1.0;             ///< an older vehicle pose counts as missing [s]
+  double planner_silence_timeout = 5.0;  ///< a running command's message tells when nothing was reported so long [s]
+  std::string status_topic = "external_command/status";
+  std::string log_topic = "external_command/log";
+  std::string routing_response_topic = "routing_response";
+  std::string path_topic = "external_command/path";
+  std::string markers_topic = "external_command/markers";
+  VehicleParams vehicle;
+  RouterParams router;
+  LaneWayParams lane_way;
+  ReferencePathParams reference_path;
+};
+
+/// @throws InvalidParameter
+ContextParams readContextParams(const ParameterReader& reader);
+
+/// Holds what all processors of one namespace in one process share: map, vehicle pose, gate, registry, publishers.
+/// Processors keep it alive; the first that asks makes it. Thread-safe.
+class ProcessContext {
+ public:
+  /// The live context of the namespace of `nh`, or a new one with parameters from `parameters`.
+  /// @throws InvalidParameter, MapError
+  static std::shared_ptr<ProcessContext> acquire(const ros::NodeHandle& nh, const ros::NodeHandle& parameters);
+
+  ProcessContext(const ros::NodeHandle& nh, const ros::NodeHandle& parameters);
+
+  const ContextParams& params() const { return params_; }
+
+  /// nullptr where no map is configured.
+  const Router* router() const { return router_.get(); }
+
+  /// @throws NotReady  no map is configured; the text names the parameter.
+  const Router& requireRouter() const;
+
+  const VehiclePose& vehiclePose() const { return vehicle_pose_; }
+  CommandGate& gate() { return gate_; }
+  CommandRegistry& registry() { return registry_; }
+  Display& display() { return display_; }
+
+  /// For short callbacks that need nothing but this context.
+  DedicatedLane& housekeeping() { return housekeeping_; }
+
+  /// One publisher per topic for all processors: several latched ones on a topic would each hand a new subscriber its
+  /// own last message, and the newest command would not be the last to arrive.
+  template <class Message>
+  ros::Publisher advertise(const std::string& topic, bool latch) {
+    const std::lock_guard<std::mutex> lock(publishers_mutex_);
+    ros::Publisher& publisher = publishers_[nh_.resolveName(topic)];
+    if (!publisher) publisher = nh_.advertise<Message>(topic, kQueueSize, latch);
+    return publisher;
+  }
+
+ private:
+  static constexpr int kQueueSize = 100;
+
+  const ContextParams params_;
+  ros::NodeHandle nh_;
+  std::mutex publishers_mutex_;
+  std::map<std::string, ros::Publisher> publishers_;
+  const std::shared_ptr<const Router> router_;
+  const VehiclePose vehicle_pose_;
+  CommandGate gate_;
+  CommandRegistry registry_;
+  Display display_;
+  DedicatedLane housekeeping_;  // after all that its callbacks use, before what is bound to its queue
+  ros::SteadyTimer silence_timer_;
+};
+
+}  // namespace external_command

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "external_command/Pose.h"
+#include "external_command/RoutingRequest.h"
+#include "external_command/ros/process_context.h"
+#include "external_command/routing/router.h"
+
+namespace external_command {
+
+/// What convert() makes of a command that drives lanes.
+struct RoutingTask {
+  RouteQuery query;
+  RoutingRequest request;             ///< the same as a message: goes out with the RoutingResponse
+  std::vector<Point2d> way_points;    ///< for the display
+  std::vector<std::string> warnings;  ///< for the report
+};
+
+/// Start and way points of a command, the goal still missing.
+/// With `is_start_pose_set` the first of `way_points` is the start; otherwise the vehicle's pose is.
+/// @param frame_id  of the way points.
+/// @throws NotReady  no map, or no vehicle pose. @throws OffMap, InvalidRequest
+RoutingTask beginRoutingTask(const ProcessContext& context, const std::string& frame_id, bool is_start_pose_set,
+                             const std::vector<Pose>& way_points);
+
+/// Lanes, parts of lanes and roads that may not be driven.
+/// @throws InvalidRequest  an unknown id, or a part that is none.
+void addBlackList(const HdMap& map, const std::vector<LaneSegment>& lanes, const std::vector<std::string>& roads,
+                  RoutingTask* task);
+
+/// The lane point nearest to `pose` as the only goal.
+/// @throws OffMap
+void setGoal(const ProcessContext& context, const std::string& frame_id, const Pose& pose, const std::string& field,
+             RoutingTask* task);
+
+/// Any of `candidates` as goal; the request names the first.
+void setGoals(const HdMap& map, const std::vector<LanePoint>& candidates, RoutingTask* task);
+
+}  // namespace external_command

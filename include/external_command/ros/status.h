@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <exception>
+#include <string>
+
+#include "external_command/CommandStatus.h"
+#include "external_command/core/error.h"
+
+namespace external_command {
+
+/// A status stamped now. `status` is one of CommandStatus's RUNNING, FINISHED, ERROR, UNKNOWN.
+CommandStatus makeStatus(std::int64_t command_id, std::uint8_t status, ErrorCode code, const std::string& message);
+
+/// What `error` means for a command. The one place where exceptions become statuses.
+CommandStatus statusFrom(const std::exception_ptr& error, std::int64_t command_id);
+
+/// True where the command has come to its end: FINISHED or ERROR, or UNKNOWN after a timeout.
+bool hasEnded(const CommandStatus& status);
+
+}  // namespace external_command

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <string>
+
+#include "external_command/core/pose.h"
+
+namespace external_command {
+
+/// The vehicle's pose, and other frames, by tf2. Thread-safe; never waits.
+class VehiclePose {
+ public:
+  /// @param max_age  a vehicle pose older than this counts as missing [s].
+  VehiclePose(std::string map_frame, std::string base_frame, double max_age);
+
+  /// Pose of `base_frame` in `map_frame`.
+  /// @throws NotReady  there is none, or it is too old; the text names the frames and the age.
+  Pose2d get() const;
+
+  /// Pose of `frame` in `map_frame`; the identity for `map_frame` itself and for "".
+  /// @throws InvalidRequest  tf does not know how to get from one to the other.
+  Pose2d ofFrame(const std::string& frame) const;
+
+ private:
+  const std::string map_frame_, base_frame_;
+  const double max_age_;
+  tf2_ros::Buffer buffer_;
+  tf2_ros::TransformListener listener_;
+};
+
+}  // namespace external_command

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ros/steady_timer.h>
+
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "external_command/Action.h"
+#include "external_command/ActionCommand.h"
+#include "external_command/Chassis.h"
+#include "external_command/PlanningState.h"
+#include "external_command/ros/service_command_processor.h"
+#include "mode_switch.h"
+#include "pending_actions.h"
+
+namespace external_command {
+
+/// Single actions: stop, pull over, start, change lane, switch the driving mode ...
+///
+/// An action is sent at once, on the processor's lane, where nothing is ever waited for; what shows its end is watched
+/// on a second lane.
+class ActionCommandProcessor : public ServiceCommandProcessor<Action> {
+ public:
+  ActionCommandProcessor();
+  ~ActionCommandProcessor() override;
+
+ private:
+  struct RunningSwitch {
+    std::int64_t command_id = 0;
+    ModeSwitch decision;
+  };
+
+  void start() override;
+  void readParameters();
+  void subscribe();
+
+  void check(const ActionCommand& command) const override;
+  CommandStatus execute(const ActionCommand& command, const CommandGate::Arrival& arrival, Response* response) override;
+
+  CommandStatus sendAndWatch(const ActionCommand& command);
+  CommandStatus clearPlanning(std::int64_t command_id);
+  CommandStatus switchMode(std::int64_t command_id, ModeSwitch::Target target);
+
+  /// Carries the running mode switch one step on; its status.
+  CommandStatus advanceSwitch();
+
+  /// @throws NotReady  the chassis was never heard of, or too long ago.
+  void requireChassis() const;
+
+  void onChassis(const Chassis& chassis);
+  void onTick();
+  void record(const PendingActions::Changes& changes);
+
+  void sendToPlanning(std::uint8_t pad) const;
+  void sendToControl(std::uint8_t pad) const;
+
+  ModeSwitchParams mode_switch_params_;
+  double max_chassis_age_ = 1.0;  ///< [s]
+  std::vector<ros::Publisher> planning_pads_;
+  ros::Publisher control_pad_;
+
+  std::mutex mutex_;  ///< guards what follows; held for decisions and sending, never while waiting
+  std::optional<PendingActions> pending_;
+  std::optional<RunningSwitch> switch_;
+  bool mode_is_settled_ = true;  ///< no mode is asked for that the chassis may still go into
+  Chassis chassis_;
+  ros::SteadyTime chassis_time_;  ///< when that came in; zero: never
+
+  DedicatedLane watch_lane_;  // before its users: they leave its queue first
+  std::vector<ros::Subscriber> subscribers_;
+  ros::SteadyTimer timer_;
+};
+
+}  // namespace external_command

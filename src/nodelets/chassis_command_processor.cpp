@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "chassis_command_processor.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
+#include "external_command/Chassis.h"
+#include "external_command/core/text.h"
+#include "external_command/ros/checks.h"
+
+namespace external_command {
+
+namespace {
+
+constexpr double kTick = 0.1;  // of the time-out [s]
+
+double now() { return ros::SteadyTime::now().toSec(); }
+
+bool isName(std::string_view word) {
+  const auto belongs = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+  return !word.empty() && std::isalpha(static_cast<unsigned char>(word[0])) != 0 &&
+         std::all_of(word.begin(), word.end(), belongs);
+}
+
+bool isType(std::string_view type) {
+  const std::size_t slash = type.find('/');
+  return slash != std::string_view::npos && isName(type.substr(0, slash)) && isName(type.substr(slash + 1));
+}
+
+bool isMd5(std::string_view digits) {
+  return digits.size() == 32 && digits.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
+/// What it holds is not looked at: its type may be known to nobody but the chassis.
+void checkAny(const Any& any, const std::string& field) {
+  if (any.type.empty() && any.md5sum.empty() && any.data.empty()) return;
+  if (!isType(any.type)) {
+    throw InvalidRequest(text(field, ".type is '", any.type, "'; it must be package/Type"));
+  }
+  if (!isMd5(any.md5sum)) {
+    throw InvalidRequest(
+        text(field, ".md5sum is '", any.md5sum, "'; it must be the 32 hexadecimal digits of ", any.type));
+  }
+}
+
+}  // namespace
+
+ChassisCommandProcessor::ChassisCommandProcessor()
+    : ServiceCommandProcessor<ChassisControl>("external_command/chassis") {}
+
+ChassisCommandProcessor::~ChassisCommandProcessor() {
+  stopServing();
+  watch_lane_.stop();
+}
+
+void ChassisCommandProcessor::start() {
+  ServiceCommandProcessor<ChassisControl>::start();
+  double timeout = 5.0;
+  parameters().readWithin("timeout", 0.01, 86400.0, &timeout);
+  parameters().readWithin("max_request_age", 0.01, 86400.0, &max_request_age_);
+  pending_.emplace(timeout);
+  for (const std::string& topic : topicNames("output_command_name", "canbus/chassis_control")) {
+    publishers_.push_back(context().advertise<ChassisCommand>(topic, false));
+  }
+  subscribe();
+}
+
+void ChassisCommandProcessor::subscribe() {
+  std::string topic = "canbus/chassis";
+  parameters().read("chassis_name", &topic);
+  ros::NodeHandle nh(getNodeHandle());
+  nh.setCallbackQueue(watch_lane_.queue());
+  const boost::function<void(const Chassis&)> on_chassis = [this](const Chassis& chassis) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    record(pending_->onChassis(chassis.signal));
+  };
+  chassis_subscriber_ = nh.subscribe<Chassis>(topic, 10, on_chassis);
+  timer_ = nh.createSteadyTimer(ros::WallDuration(kTick), [this](const ros::SteadyTimerEvent&) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    record(pending_->onTime(now()));
+  });
+}
+
+void ChassisCommandProcessor::check(const ChassisCommand& command) const {
+  requireFresh(command.header.stamp, max_request_age_);
+  checkSignals(command.basic_signal);
+  checkAny(command.custom_operation, "custom_operation");
+}
+
+CommandStatus ChassisCommandProcessor::execute(const ChassisCommand& command, const CommandGate::Arrival& /*arrival*/,
+                                               Response* /*response*/) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const bool changes_signals = commandsAny(command.basic_signal);
+  if (changes_signals) record(pending_->add(command.command_id, command.basic_signal, now()));
+  for (const ros::Publisher& publisher : publishers_) publisher.publish(command);
+  if (!changes_signals) {
+    return makeStatus(command.command_id, CommandStatus::FINISHED, ErrorCode::kOk,
+                      "sent; it changes no signal that could be waited for");
+  }
+  const CommandStatus status = makeStatus(command.command_id, CommandStatus::RUNNING, ErrorCode::kOk, "sent");
+  context().registry().update(status);
+  return status;
+}
+
+void ChassisCommandProcessor::record(const PendingSignals::Changes& changes) {
+  for (const CommandStatus& status : changes) context().registry().update(status);
+}
+
+}  // namespace external_command

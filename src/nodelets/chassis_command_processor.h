@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ros/steady_timer.h>
+
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "external_command/ChassisCommand.h"
+#include "external_command/ChassisControl.h"
+#include "external_command/ros/service_command_processor.h"
+#include "pending_signals.h"
+
+namespace external_command {
+
+/// Lights, horn, and operations of somebody else's.
+class ChassisCommandProcessor : public ServiceCommandProcessor<ChassisControl> {
+ public:
+  ChassisCommandProcessor();
+  ~ChassisCommandProcessor() override;
+
+ private:
+  void start() override;
+  void subscribe();
+  void check(const ChassisCommand& command) const override;
+  CommandStatus execute(const ChassisCommand& command, const CommandGate::Arrival& arrival,
+                        Response* response) override;
+  void record(const PendingSignals::Changes& changes);
+
+  double max_request_age_ = 2.0;  ///< [s]
+  std::vector<ros::Publisher> publishers_;
+
+  std::mutex mutex_;
+  std::optional<PendingSignals> pending_;  ///< guarded by the mutex
+
+  DedicatedLane watch_lane_;  // before its users: they leave its queue first
+  ros::Subscriber chassis_subscriber_;
+  ros::SteadyTimer timer_;
+};
+
+}  // namespace external_command

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <nodelet/loader.h>
+#include <ros/ros.h>
+
+/// The component as a node of its own, without a nodelet manager.
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "external_command");
+  nodelet::Loader loader;
+  const nodelet::M_string remappings(ros::names::getRemappings());
+  const nodelet::V_string arguments(argv + 1, argv + argc);
+  if (!loader.load(ros::this_node::getName(), "external_command/ExternalCommandProcessComponent", remappings,
+                   arguments)) {
+    return 1;  // the component has told why
+  }
+  ros::spin();
+  return 0;
+}

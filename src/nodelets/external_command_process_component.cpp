@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "external_command_process_component.h"
+
+#include <algorithm>
+#include <cctype>
+#include <pluginlib/class_loader.hpp>
+#include <set>
+
+#include "external_command/core/text.h"
+#include "external_command/ros/status.h"
+
+namespace external_command {
+
+namespace {
+
+const std::vector<std::string> kDefaultProcessors = {"external_command/LaneFollowCommandProcessor"};
+
+/// "my_package/SortParcelsProcessor" -> "sort_parcels_processor".
+std::string nodeletNameOf(const std::string& type) {
+  std::string name;
+  for (const char c : type.substr(type.rfind('/') + 1)) {
+    const bool is_upper = std::isupper(static_cast<unsigned char>(c)) != 0;
+    if (is_upper && !name.empty() && name.back() != '_') name += '_';
+    name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return name;
+}
+
+/// Why pluginlib does not know `type`; empty where it does.
+std::string whyUnknown(const std::string& type) {
+  pluginlib::ClassLoader<nodelet::Nodelet> classes("nodelet", "nodelet::Nodelet");
+  if (classes.isClassAvailable(type)) return "";
+  std::string known;
+  for (const std::string& name : classes.getDeclaredClasses()) {
+    if (name.find("Processor") != std::string::npos) known += (known.empty() ? "" : ", ") + name;
+  }
+  return text("no nodelet plug-in declares the class ", type, "; declared processors: ", known,
+              ". Is its package built, and its setup.bash sourced?");
+}
+
+}  // namespace
+
+ExternalCommandProcessComponent::ExternalCommandProcessComponent() : loader_(false) {}
+
+ExternalCommandProcessComponent::~ExternalCommandProcessComponent() {
+  status_server_.shutdown();
+  status_lane_.reset();  // joins
+}
+
+void ExternalCommandProcessComponent::start() {
+  std::vector<std::string> processors = kDefaultProcessors;
+  parameters().read("processors", &processors);
+  loadProcessors(processors);
+}
+
+void ExternalCommandProcessComponent::open() {
+  std::string service = "external_command/command_status";
+  parameters().read("command_status_service_name", &service);
+  status_lane_ = std::make_unique<DedicatedLane>();
+  ros::NodeHandle nh(getNodeHandle());
+  nh.setCallbackQueue(status_lane_->queue());
+  status_server_ = nh.advertiseService(service, &ExternalCommandProcessComponent::serveStatus, this);
+  if (!status_server_) {
+    throw InternalError(text("service ", nh.resolveName(service),
+                             " is advertised by this process already; is the component loaded twice?"));
+  }
+}
+
+void ExternalCommandProcessComponent::loadProcessors(const std::vector<std::string>& processors) {
+  bool require_all = true;
+  parameters().read("require_all", &require_all);
+  std::string failures;
+  const auto fail = [&](const std::string& what) {
+    ROS_ERROR_STREAM(getName() << ": " << what);
+    failures += (failures.empty() ? "" : "; ") + what;
+  };
+  if (processors.empty()) fail(parameters().nameOf("processors") + " is empty; name at least one processor");
+  std::set<std::string> seen;
+  for (const std::string& type : processors) {
+    const bool is_new = seen.insert(type).second;
+    const std::string reason = is_new ? load(type) : "it is listed twice";
+    if (!reason.empty()) fail(text("processor ", type, " did not start: ", reason));
+  }
+  if (failures.empty() || !require_all) return;
+  throw InternalError(failures + " (set ~require_all to false to start with the others)");
+}
+
+std::string ExternalCommandProcessComponent::load(const std::string& type) {
+  const std::string unknown = whyUnknown(type);
+  if (!unknown.empty()) return unknown;
+  // Beside the component, not below it: the same relative names then mean the same however a processor is loaded.
+  const std::string name = ros::names::append(ros::names::parentNamespace(getName()), nodeletNameOf(type));
+  if (loader_.load(name, type, getRemappingArgs(), getMyArgv())) return "";
+  const std::string reason = startFailureOf(name);
+  return reason.empty() ? "nodelet could not load it; the lines above tell why" : reason;
+}
+
+bool ExternalCommandProcessComponent::serveStatus(GetCommandStatus::Request& request,
+                                                  GetCommandStatus::Response& response) {
+  response.status = context().registry().find(request.command_id);
+  return true;
+}
+
+}  // namespace external_command

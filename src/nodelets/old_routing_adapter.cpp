@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "old_routing_adapter.h"
+
+#include <tf2/utils.h>
+
+#include <boost/make_shared.hpp>
+
+#include "external_command/LaneFollow.h"
+#include "external_command/RoutingResponse.h"
+#include "external_command/ValetParking.h"
+#include "external_command/core/text.h"
+#include "external_command/ros/status.h"
+
+namespace external_command {
+
+namespace {
+
+constexpr std::size_t kMaxWaiting = 10;
+
+template <class Service, class Command>
+CommandStatus call(ros::NodeHandle& nh, const std::string& name, const Command& command) {
+  ros::ServiceClient client = nh.serviceClient<Service>(name);
+  Service service;
+  service.request.command = command;
+  if (client.call(service)) return service.response.status;
+  if (!client.exists()) {
+    throw NotReady(text("there is no service ", client.getService(),
+                        "; is the component running, with its processor in the list ~processors?"));
+  }
+  throw InternalError(text("service ", client.getService(), " ended without an answer; see the component's log"));
+}
+
+}  // namespace
+
+OldRoutingAdapter::~OldRoutingAdapter() {
+  request_subscriber_.shutdown();
+  goal_subscriber_.shutdown();
+  lane_.stop();
+}
+
+void OldRoutingAdapter::start() {
+  parameters().read("routing_request_name", &request_topic_);
+  parameters().read("goal_name", &goal_topic_);
+  parameters().read("lane_follow_service_name", &lane_follow_service_);
+  parameters().read("valet_parking_service_name", &valet_parking_service_);
+  double tolerance = 3.0;
+  parameters().readWithin("way_point_tolerance", 0.0, 1000.0, &tolerance);
+  converter_.emplace(contextPtr(), tolerance);
+  response_publisher_ = context().advertise<RoutingResponse>(context().params().routing_response_topic, true);
+}
+
+void OldRoutingAdapter::open() {
+  ros::NodeHandle& nh = getNodeHandle();
+  request_subscriber_ = nh.subscribe(request_topic_, kMaxWaiting, &OldRoutingAdapter::take, this);
+  if (!goal_topic_.empty())
+    goal_subscriber_ = nh.subscribe(goal_topic_, kMaxWaiting, &OldRoutingAdapter::takeGoal, this);
+}
+
+void OldRoutingAdapter::takeGoal(const geometry_msgs::PoseStamped& goal) {
+  const auto request = boost::make_shared<RoutingRequest>();
+  request->header = goal.header;
+  LaneWaypoint end;
+  end.pose = goal.pose.position;
+  const auto& q = goal.pose.orientation;
+  end.has_heading = q.x != 0.0 || q.y != 0.0 || q.z != 0.0 || q.w != 0.0;
+  if (end.has_heading) end.heading = tf2::getYaw(tf2::Quaternion(q.x, q.y, q.z, q.w));
+  request->waypoint.push_back(end);
+  take(request);
+}
+
+void OldRoutingAdapter::take(const RoutingRequest::ConstPtr& request) {
+  RoutingRequest::ConstPtr dropped;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    waiting_.push_back(request);
+    if (waiting_.size() > kMaxWaiting) {
+      dropped = waiting_.front();
+      waiting_.pop_front();
+    }
+  }
+  if (dropped) {
+    refuse(*dropped, makeStatus(0, CommandStatus::ERROR, ErrorCode::kSuperseded,
+                                text("dropped for newer requests: more than ", kMaxWaiting, " were waiting")));
+  }
+  lane_.post([this] { carryOutNext(); });
+}
+
+void OldRoutingAdapter::carryOutNext() {
+  RoutingRequest::ConstPtr request;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (waiting_.empty()) return;  // it was dropped
+    request = waiting_.front();
+    waiting_.pop_front();
+  }
+  CommandStatus status;
+  try {
+    status = carryOut(*request);
+  } catch (...) {
+    status = statusFrom(std::current_exception(), 0);
+  }
+  if (status.status == CommandStatus::ERROR) return refuse(*request, status);
+  ROS_INFO_STREAM(getName() << ": the request became command " << status.command_id << ": " << status.message);
+}
+
+CommandStatus OldRoutingAdapter::carryOut(const RoutingRequest& request) {
+  if (request.dead_end_info.dead_end_routing_type != DeadEndInfo::ROUTING_OTHER) {
+    ROS_WARN_STREAM(getName() << ": dead_end_info has no meaning here and is passed over");
+  }
+  if (hasParkingInfo(request)) {
+    return call<ValetParking>(getNodeHandle(), valet_parking_service_, converter_->toValetParking(request));
+  }
+  return call<LaneFollow>(getNodeHandle(), lane_follow_service_, converter_->toLaneFollow(request));
+}
+
+void OldRoutingAdapter::refuse(const RoutingRequest& request, const CommandStatus& status) {
+  ROS_ERROR_STREAM(getName() << ": request refused: " << status.message);
+  RoutingResponse response;
+  response.header.stamp = ros::Time::now();
+  response.header.frame_id = context().params().map_frame;
+  response.routing_request = request;
+  response.error_code = static_cast<std::uint8_t>(status.error_code);
+  response.error_message = status.message;
+  response_publisher_.publish(response);
+}
+
+}  // namespace external_command

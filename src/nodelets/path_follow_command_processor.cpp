@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "path_follow_command_processor.h"
+
+#include <cmath>
+
+#include "external_command/core/text.h"
+#include "external_command/core/waypoint_path.h"
+#include "path_message.h"
+
+namespace external_command {
+
+namespace {
+
+constexpr std::size_t kMaxBendWarnings = 20;
+
+WaypointLine toLine(const PathFollowCommand& command, const Pose2d& frame) {
+  WaypointLine line;
+  line.points = toMapPoints(command.way_point, frame);
+  for (const double heading : command.heading) line.headings.push_back(heading + frame.heading);
+  return line;
+}
+
+void requireSameCount(std::size_t size, std::size_t way_points, const std::string& field) {
+  if (size == way_points) return;
+  throw InvalidRequest(text(field, " has ", size, " points, way_point ", way_points,
+                            "; each border needs one point per way point, or give left_path_width and "
+                            "right_path_width instead"));
+}
+
+void checkBorders(const PathFollowCommand& command) {
+  requireNotNegative(command.left_path_width, "left_path_width");
+  requireNotNegative(command.right_path_width, "right_path_width");
+  const bool has_widths = command.left_path_width > 0.0 || command.right_path_width > 0.0;
+  const bool has_boundaries = !command.left_boundary.empty() || !command.right_boundary.empty();
+  if (has_widths && has_boundaries) {
+    throw InvalidRequest(text("left_boundary has ", command.left_boundary.size(), " points, right_boundary ",
+                              command.right_boundary.size(), ", and left_path_width is ", command.left_path_width,
+                              ", right_path_width ", command.right_path_width,
+                              "; give boundaries or widths, not both"));
+  }
+  if (has_widths && (command.left_path_width == 0.0 || command.right_path_width == 0.0)) {
+    throw InvalidRequest(text("left_path_width is ", command.left_path_width, ", right_path_width ",
+                              command.right_path_width, "; give both or neither"));
+  }
+  if (!has_boundaries) return;
+  requireSameCount(command.left_boundary.size(), command.way_point.size(), "left_boundary");
+  requireSameCount(command.right_boundary.size(), command.way_point.size(), "right_boundary");
+  checkPoints(command.left_boundary, 2, RequestLimits::kPathPoints, "left_boundary");
+  checkPoints(command.right_boundary, 2, RequestLimits::kPathPoints, "right_boundary");
+}
+
+/// Where the given borders leave less room than the vehicle's width.
+void warnOfNarrowPath(const PathFollowCommand& command, double vehicle_width, std::vector<std::string>* warnings) {
+  const auto warn = [&](const std::string& what, double width) {
+    warnings->push_back(text(what, " leave ", metres(width), " between them; the vehicle is ", metres(vehicle_width),
+                             " wide (~vehicle/width)"));
+  };
+  const double width = command.left_path_width + command.right_path_width;
+  if (width > 0.0 && width < vehicle_width) warn("left_path_width and right_path_width", width);
+  for (std::size_t i = 0; i < command.left_boundary.size(); ++i) {
+    const auto &left = command.left_boundary[i], &right = command.right_boundary[i];
+    const double gap = std::hypot(left.x - right.x, left.y - right.y);
+    if (gap >= vehicle_width) continue;
+    return warn(text("left_boundary[", i, "] and right_boundary[", i, "]"), gap);
+  }
+}
+
+std::string describe(const TightBend& bend, double min_radius) {
+  const std::string place = text("way_point[", bend.waypoint, "], ", at(bend.position));
+  const std::string needed =
+      text("the vehicle needs a radius of ", metres(min_radius), " (~vehicle/min_turning_radius)");
+  if (bend.corner == 0.0) {
+    return text("the path bends with a radius of ", metres(bend.radius), " near ", place, "; ", needed);
+  }
+  const bool turns_back = std::abs(bend.corner) > 0.75 * M_PI;
+  return text("the path has a corner of ", std::abs(bend.corner), " rad at ", place, "; ", needed,
+              turns_back ? ", or headings that say where it reverses" : "");
+}
+
+void warnOfTightBends(const std::vector<TightBend>& bends, double min_radius, std::vector<std::string>* warnings) {
+  for (std::size_t i = 0; i < bends.size() && i < kMaxBendWarnings; ++i) {
+    warnings->push_back(describe(bends[i], min_radius));
+  }
+  if (bends.size() <= kMaxBendWarnings) return;
+  warnings->push_back(text(bends.size() - kMaxBendWarnings, " more places bend too tightly"));
+}
+
+}  // namespace
+
+PathFollowCommandProcessor::PathFollowCommandProcessor()
+    : MotionCommandProcessor<PathFollow>("external_command/path_follow") {}
+
+PathFollowCommandProcessor::~PathFollowCommandProcessor() {
+  path_subscriber_.shutdown();
+  stopServing();
+}
+
+void PathFollowCommandProcessor::open() {
+  MotionCommandProcessor<PathFollow>::open();
+  std::string topic;
+  parameters().read("input_path_name", &topic);
+  if (topic.empty()) return;
+  ros::NodeHandle nh(getNodeHandle());
+  nh.setCallbackQueue(lane().queue());
+  const boost::function<void(const ros::MessageEvent<nav_msgs::Path const>&)> on_path =
+      [this](const ros::MessageEvent<nav_msgs::Path const>& event) {
+        process(toPathFollowCommand(*event.getConstMessage()), event.getPublisherName());
+      };
+  path_subscriber_ = nh.subscribe<nav_msgs::Path>(topic, 10, on_path);
+}
+
+void PathFollowCommandProcessor::check(const PathFollowCommand& command) const {
+  checkPoints(command.way_point, 2, RequestLimits::kPathPoints, "way_point");
+  checkBorders(command);
+  requireNotNegative(command.target_speed, "target_speed");
+  const Pose2d frame = context().vehiclePose().ofFrame(command.header.frame_id);
+  checkWaypoints(toLine(command, frame), context().params().reference_path.spacing);
+}
+
+void PathFollowCommandProcessor::processSpecialCommand(const PathFollowCommand& command, const CancelToken& /*cancel*/,
+                                                       MotionPlan* plan) {
+  const ContextParams& params = context().params();
+  const Pose2d frame = context().vehiclePose().ofFrame(command.header.frame_id);
+  const WaypointLine line = toLine(command, frame);
+  WaypointPath result = pathThrough(line, params.vehicle, params.reference_path.spacing, command.target_speed);
+  warnOfNarrowPath(command, params.vehicle.width, &plan->report.warnings);
+  warnOfTightBends(result.tight_bends, params.vehicle.min_turning_radius, &plan->report.warnings);
+  plan->path = std::move(result.path);
+  plan->command.command_type = PlanningCommand::CUSTOM;
+  plan->command.custom_command = packAny(command);
+  plan->scene.way_points = line.points;
+  plan->scene.start = plan->path.front().pose();
+  plan->scene.goal = plan->path.back().pose();
+}
+
+}  // namespace external_command

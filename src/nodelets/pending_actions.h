@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "external_command/Chassis.h"
+#include "external_command/CommandStatus.h"
+
+namespace external_command {
+
+/// Name of an action as in ActionCommand.msg, "PULL_OVER" for example; empty for a number that is none.
+std::string nameOfAction(std::uint8_t action);
+
+/// "FOLLOW (1), CHANGE_LEFT (2), ..."
+std::string knownActions();
+
+struct PendingActionParams {
+  double timeout = 30.0;        ///< after which the end of an action is UNKNOWN [s]
+  double stop_timeout = 120.0;  ///< the same of STOP and PULL_OVER [s]
+  double moving_speed = 0.1;    ///< a faster vehicle moves [m/s]
+  /// Scenarios of the planner that show an action, by action.
+  std::map<std::uint8_t, std::vector<std::string>> scenarios;
+
+  /// With scenarios named like the actions, and those that ApolloAuto's planner has for STOP, PULL_OVER and FOLLOW.
+  PendingActionParams();
+};
+
+/// The actions that were sent and have not ended, and what ends each:
+///
+///   FOLLOW, CHANGE_*, *_MISSION   a report of the planner, or a scenario that shows it
+///   STOP, PULL_OVER               a scenario that shows it, and a report that it is finished
+///   START                         a vehicle that moves
+///   VIN_REQ                       a chassis that reports a vin
+///
+/// A report is about an action where it has the action's id or 0, for STOP and PULL_OVER also that of the running
+/// motion command. Each call returns the statuses that changed. Not thread-safe.
+class PendingActions {
+ public:
+  using Changes = std::vector<CommandStatus>;
+
+  explicit PendingActions(PendingActionParams params) : params_(std::move(params)) {}
+
+  /// To be called right before the action is sent. Of STOP, PULL_OVER and START the newest counts: another that is
+  /// still waited for is superseded.
+  /// @param now  [s], of any steady clock.
+  Changes add(std::int64_t command_id, std::uint8_t action, double now);
+
+  /// @param motion_id  of the motion command sent last.
+  Changes onPlannerStatus(const CommandStatus& status, std::optional<std::int64_t> motion_id);
+  Changes onScenario(const std::string& scenario);
+  Changes onChassis(const Chassis& chassis);
+  Changes onTime(double now);
+
+ private:
+  struct Pending {
+    std::int64_t command_id = 0;
+    std::uint8_t action = 0;
+    double deadline = 0.0;     ///< [s]
+    bool is_reported = false;  ///< as finished
+  };
+
+  bool isShown(const Pending& pending) const;
+  std::optional<CommandStatus> endOfHold(const Pending& pending) const;
+  std::optional<CommandStatus> afterReport(const CommandStatus& report, bool is_meant, Pending* pending) const;
+
+  const PendingActionParams params_;
+  std::vector<Pending> pending_;
+  std::string scenario_;  ///< the planner's present one
+};
+
+}  // namespace external_command

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "external_command/CommandStatus.h"
+#include "external_command/VehicleSignal.h"
+
+namespace external_command {
+
+/// @throws InvalidRequest  a field is none of VehicleSignal's constants; the text names it as `basic_signal.<field>`.
+void checkSignals(const VehicleSignal& commanded);
+
+/// True where at least one signal is commanded to change.
+bool commandsAny(const VehicleSignal& commanded);
+
+/// The chassis commands whose signals the chassis does not report yet. Each call returns the statuses that changed.
+/// Not thread-safe.
+class PendingSignals {
+ public:
+  using Changes = std::vector<CommandStatus>;
+
+  /// @param timeout  after which the end of a command is UNKNOWN [s].
+  explicit PendingSignals(double timeout) : timeout_(timeout) {}
+
+  /// To be called right before the command is sent. An older one that wants the same signal otherwise is superseded.
+  /// @param now  [s], of any steady clock.
+  Changes add(std::int64_t command_id, const VehicleSignal& commanded, double now);
+
+  Changes onChassis(const VehicleSignal& reported);
+  Changes onTime(double now);
+
+ private:
+  struct Pending {
+    std::int64_t command_id = 0;
+    VehicleSignal commanded;
+    double deadline = 0.0;  ///< [s]
+  };
+
+  const double timeout_;
+  std::vector<Pending> pending_;
+  VehicleSignal reported_;  ///< by the chassis, at last
+};
+
+}  // namespace external_command

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "external_command/ros/checks.h"
+
+#include <cmath>
+
+#include "external_command/core/error.h"
+#include "external_command/core/text.h"
+
+namespace external_command {
+
+void requireFinite(double value, const std::string& field) {
+  if (!std::isfinite(value)) throw InvalidRequest(text(field, " is ", value, "; it must be finite"));
+}
+
+void requireNotNegative(double value, const std::string& field) {
+  requireFinite(value, field);
+  if (value < 0.0) throw InvalidRequest(text(field, " is ", value, "; it must not be negative"));
+}
+
+void requireWithin(double value, double low, double high, const std::string& field) {
+  if (value >= low && value <= high) return;  // false for NaN
+  throw InvalidRequest(text(field, " is ", value, "; it must lie in [", low, ", ", high, "]"));
+}
+
+void requireSize(std::size_t size, std::size_t low, std::size_t high, const std::string& field) {
+  if (size >= low && size <= high) return;
+  throw InvalidRequest(text(field, " has ", size, " elements; it must have ", low, " to ", high));
+}
+
+void requireFinite(const Pose& pose, const std::string& field) {
+  requireFinite(pose.x, field + ".x");
+  requireFinite(pose.y, field + ".y");
+  if (pose.has_heading) requireFinite(pose.heading, field + ".heading");
+}
+
+void requireFinite(const geometry_msgs::Point& point, const std::string& field) {
+  requireFinite(point.x, field + ".x");
+  requireFinite(point.y, field + ".y");
+}
+
+void requireFresh(const ros::Time& stamp, double max_age) {
+  if (stamp.isZero()) return;
+  const double age = (ros::Time::now() - stamp).toSec();
+  if (age > max_age) {
+    throw StaleRequest(text("header.stamp is ", age, " s old; the limit is ", max_age,
+                            " s (~max_request_age): send it again, or leave the stamp empty"));
+  }
+  if (age < -max_age) {
+    throw StaleRequest(text("header.stamp lies ", -age, " s in the future; the limit is ", max_age,
+                            " s (~max_request_age): do the clocks agree?"));
+  }
+}
+
+void checkWayPoints(const std::vector<Pose>& way_points, bool is_start_pose_set) {
+  requireSize(way_points.size(), 0, RequestLimits::kWayPoints, "way_point");
+  if (is_start_pose_set && way_points.empty()) {
+    throw InvalidRequest("way_point is empty, but is_start_pose_set says that its first is the start");
+  }
+  for (std::size_t i = 0; i < way_points.size(); ++i) requireFinite(way_points[i], text("way_point[", i, "]"));
+}
+
+void checkBlackList(const std::vector<LaneSegment>& lanes, const std::vector<std::string>& roads) {
+  requireSize(lanes.size(), 0, RequestLimits::kBlackList, "blacklisted_lane");
+  requireSize(roads.size(), 0, RequestLimits::kBlackList, "blacklisted_road");
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    requireFinite(lanes[i].start_s, text("blacklisted_lane[", i, "].start_s"));
+    requireFinite(lanes[i].end_s, text("blacklisted_lane[", i, "].end_s"));
+  }
+}
+
+void checkPoints(const std::vector<geometry_msgs::Point>& points, std::size_t low, std::size_t high,
+                 const std::string& field) {
+  requireSize(points.size(), low, high, field);
+  for (std::size_t i = 0; i < points.size(); ++i) requireFinite(points[i], text(field, "[", i, "]"));
+}
+
+void checkPolygons(const std::vector<RoiPolygon>& polygons, const std::string& field) {
+  requireSize(polygons.size(), 0, RequestLimits::kPolygons, field);
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    checkPoints(polygons[i].points, 3, RequestLimits::kPolygonPoints, text(field, "[", i, "].points"));
+  }
+}
+
+}  // namespace external_command

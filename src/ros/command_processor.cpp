@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "external_command/ros/command_processor.h"
+
+#include <ros/console.h>
+
+#include <map>
+#include <mutex>
+
+#include "external_command/core/text.h"
+
+namespace external_command {
+
+namespace {
+
+struct StartFailures {
+  std::mutex mutex;
+  std::map<std::string, std::string> reasons;
+};
+
+StartFailures& startFailures() {
+  static StartFailures failures;
+  return failures;
+}
+
+}  // namespace
+
+CommandProcessor::CommandProcessor() = default;
+CommandProcessor::~CommandProcessor() = default;
+
+void CommandProcessor::onInit() {
+  // nodelet swallows what onInit throws, so it is told here.
+  try {
+    parameters_ = std::make_unique<const ParameterReader>(getPrivateNodeHandle());
+    context_ = ProcessContext::acquire(getNodeHandle(), contextParameters());
+    start();
+    open();
+    noteStartFailure(getName(), "");
+  } catch (const std::exception& error) {
+    ROS_FATAL_STREAM(getName() << " cannot start: " << error.what());
+    noteStartFailure(getName(), error.what());
+    throw;
+  }
+}
+
+ros::NodeHandle CommandProcessor::contextParameters() const {
+  if (getPrivateNodeHandle().hasParam("map_file")) return getPrivateNodeHandle();
+  return ros::NodeHandle(getNodeHandle(), "external_command");
+}
+
+std::vector<std::string> CommandProcessor::topicNames(const std::string& key, const std::string& fallback) const {
+  std::vector<std::string> names = {fallback};
+  parameters().read(key, &names);
+  return names;
+}
+
+std::string startFailureOf(const std::string& nodelet_name) {
+  const std::lock_guard<std::mutex> lock(startFailures().mutex);
+  return startFailures().reasons[nodelet_name];
+}
+
+void noteStartFailure(const std::string& nodelet_name, const std::string& reason) {
+  const std::lock_guard<std::mutex> lock(startFailures().mutex);
+  startFailures().reasons[nodelet_name] = reason;
+}
+
+}  // namespace external_command

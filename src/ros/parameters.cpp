@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "external_command/ros/parameters.h"
+
+#include "external_command/core/error.h"
+#include "external_command/core/text.h"
+
+namespace external_command {
+
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+const char* nameOfType(XmlRpcValue::Type type) {
+  switch (type) {
+    case XmlRpcValue::TypeBoolean:
+      return "a boolean";
+    case XmlRpcValue::TypeInt:
+      return "a whole number";
+    case XmlRpcValue::TypeDouble:
+      return "a number";
+    case XmlRpcValue::TypeString:
+      return "a string";
+    case XmlRpcValue::TypeArray:
+      return "a list";
+    case XmlRpcValue::TypeStruct:
+      return "a dictionary";
+    default:
+      return "something else";
+  }
+}
+
+[[noreturn]] void refuseType(const std::string& name, const std::string& expected, XmlRpcValue::Type found) {
+  throw InvalidParameter(text("parameter ", name, " must be ", expected, ", it is ", nameOfType(found)));
+}
+
+double toDouble(XmlRpcValue& value, const std::string& name) {
+  if (value.getType() == XmlRpcValue::TypeInt) return static_cast<int>(value);
+  if (value.getType() != XmlRpcValue::TypeDouble) refuseType(name, "a number", value.getType());
+  return static_cast<double>(value);
+}
+
+template <class Value>
+void readAs(const ros::NodeHandle& nh, const std::string& key, XmlRpcValue::Type type, Value* value) {
+  XmlRpcValue found;
+  if (!nh.getParam(key, found)) return;
+  if (found.getType() != type) refuseType(nh.resolveName(key), nameOfType(type), found.getType());
+  *value = static_cast<Value&>(found);
+}
+
+template <class Number>
+void requireRange(const std::string& name, Number low, Number high, Number value) {
+  if (value >= low && value <= high) return;  // false for NaN
+  throw InvalidParameter(text("parameter ", name, " is ", value, "; it must lie in [", low, ", ", high, "]"));
+}
+
+}  // namespace
+
+void ParameterReader::read(const std::string& key, bool* value) const {
+  readAs(nh_, key, XmlRpcValue::TypeBoolean, value);
+}
+
+void ParameterReader::read(const std::string& key, int* value) const { readAs(nh_, key, XmlRpcValue::TypeInt, value); }
+
+void ParameterReader::read(const std::string& key, double* value) const {
+  XmlRpcValue found;
+  if (nh_.getParam(key, found)) *value = toDouble(found, nameOf(key));
+}
+
+void ParameterReader::read(const std::string& key, std::string* value) const {
+  readAs(nh_, key, XmlRpcValue::TypeString, value);
+}
+
+void ParameterReader::read(const std::string& key, std::vector<std::string>* value) const {
+  XmlRpcValue found;
+  if (!nh_.getParam(key, found)) return;
+  if (found.getType() != XmlRpcValue::TypeArray) refuseType(nameOf(key), "a list of strings", found.getType());
+  std::vector<std::string> items;
+  for (int i = 0; i < found.size(); ++i) {
+    if (found[i].getType() != XmlRpcValue::TypeString) {
+      refuseType(text(nameOf(key), "[", i, "]"), "a string", found[i].getType());
+    }
+    items.push_back(static_cast<std::string>(found[i]));
+  }
+  *value = items;
+}
+
+void ParameterReader::readWithin(const std::string& key, double low, double high, double* value) const {
+  read(key, value);
+  requireRange(nameOf(key), low, high, *value);
+}
+
+void ParameterReader::readWithin(const std::string& key, int low, int high, int* value) const {
+  read(key, value);
+  requireRange(nameOf(key), low, high, *value);
+}
+
+VehicleParams readVehicleParams(const ParameterReader& reader) {
+  VehicleParams vehicle;
+  reader.read("wheelbase", &vehicle.wheelbase);
+  reader.read("width", &vehicle.width);
+  reader.read("front_overhang", &vehicle.front_overhang);
+  reader.read("rear_overhang", &vehicle.rear_overhang);
+  reader.read("min_turning_radius", &vehicle.min_turning_radius);
+  reader.read("max_speed", &vehicle.max_speed);
+  reader.read("max_reverse_speed", &vehicle.max_reverse_speed);
+  reader.read("max_acceleration", &vehicle.max_acceleration);
+  reader.read("max_deceleration", &vehicle.max_deceleration);
+  reader.read("max_lateral_acceleration", &vehicle.max_lateral_acceleration);
+  reader.read("max_steering_rate", &vehicle.max_steering_rate);
+  vehicle.validate();
+  return vehicle;
+}
+
+RouterParams readRouterParams(const ParameterReader& reader) {
+  RouterParams params;
+  reader.read("min_lane_change_length", &params.min_lane_change_length);
+  params.validate();
+  return params;
+}
+
+LaneWayParams readLaneWayParams(const ParameterReader& reader) {
+  LaneWayParams params;
+  reader.read("snap_distance", &params.snap_distance);
+  reader.read("snap_heading", &params.snap_heading);
+  reader.read("off_lane_distance", &params.off_lane_distance);
+  reader.read("off_lane_heading", &params.off_lane_heading);
+  reader.read("park_and_go_radius", &params.park_and_go_radius);
+  reader.read("parking_lane_radius", &params.parking_lane_radius);
+  params.validate();
+  return params;
+}
+
+ReferencePathParams readReferencePathParams(const ParameterReader& reader) {
+  ReferencePathParams params;
+  reader.read("path_spacing", &params.spacing);
+  reader.read("lane_change_length", &params.lane_change_length);
+  reader.read("default_speed_limit", &params.default_speed_limit);
+  params.validate();
+  return params;
+}
+
+MapOrigin readMapOrigin(const ParameterReader& reader) {
+  const std::string key = "map_origin";
+  MapOrigin origin;
+  XmlRpcValue value;
+  if (!reader.raw(key, &value)) return origin;
+  if (value.getType() == XmlRpcValue::TypeString) {
+    const auto word = static_cast<std::string>(value);
+    if (word.empty() || word == "none") return origin;
+    if (word == "auto") return {MapOrigin::Kind::kAuto, Point2d::Zero()};
+    throw InvalidParameter(text("parameter ", reader.nameOf(key), " is '", word, "'; give none, auto, or [x, y]"));
+  }
+  if (value.getType() != XmlRpcValue::TypeArray || value.size() < 2 || value.size() > 3) {
+    throw InvalidParameter(text("parameter ", reader.nameOf(key), " must be none, auto, or [x, y]"));
+  }
+  origin.kind = MapOrigin::Kind::kGiven;
+  origin.point = {toDouble(value[0], reader.nameOf(key)), toDouble(value[1], reader.nameOf(key))};
+  if (!origin.point.allFinite()) throw InvalidParameter(text("parameter ", reader.nameOf(key), " is not finite"));
+  return origin;
+}
+
+}  // namespace external_command

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "external_command/ros/process_context.h"
+
+#include <ros/console.h>
+
+#include "external_command/core/error.h"
+#include "external_command/core/text.h"
+#include "external_command/ros/map_store.h"
+
+namespace external_command {
+
+namespace {
+
+constexpr double kSilenceCheckPeriod = 0.5;  // [s]
+
+std::shared_ptr<const Router> routerOf(const ContextParams& params) {
+  if (params.map_file.empty()) return nullptr;
+  return sharedRouter(params.map_file, params.map_origin, params.router);
+}
+
+/// Tells programs that know the map file's coordinates what to subtract from them.
+void publishOrigin(const ros::NodeHandle& parameters, const Router* router) {
+  const Point2d origin = router ? router->map().origin() : Point2d::Zero();
+  parameters.setParam("map_origin_resolved", std::vector<double>{origin.x(), origin.y()});
+}
+
+}  // namespace
+
+ContextParams readContextParams(const ParameterReader& reader) {
+  ContextParams params;
+  reader.read("map_file", &params.map_file);
+  params.map_origin = readMapOrigin(reader);
+  reader.read("map_frame", &params.map_frame);
+  reader.read("base_frame", &params.base_frame);
+  reader.readWithin("max_pose_age", 0.01, 3600.0, &params.max_pose_age);
+  reader.readWithin("planner_silence_timeout", 0.1, 86400.0, &params.planner_silence_timeout);
+  reader.read("output_command_status_name", &params.status_topic);
+  reader.read("command_log_name", &params.log_topic);
+  reader.read("routing_response_name", &params.routing_response_topic);
+  reader.read("path_name", &params.path_topic);
+  reader.read("markers_name", &params.markers_topic);
+  params.vehicle = readVehicleParams(reader.within("vehicle"));
+  const ParameterReader routing = reader.within("routing");
+  params.router = readRouterParams(routing);
+  params.lane_way = readLaneWayParams(routing);
+  params.reference_path = readReferencePathParams(routing);
+  return params;
+}
+
+std::shared_ptr<ProcessContext> ProcessContext::acquire(const ros::NodeHandle& nh, const ros::NodeHandle& parameters) {
+  static std::mutex mutex;
+  static std::map<std::string, std::weak_ptr<ProcessContext>> live;
+  const std::lock_guard<std::mutex> lock(mutex);
+  auto& known = live[nh.getNamespace()];
+  auto context = known.lock();
+  if (!context) known = context = std::make_shared<ProcessContext>(nh, parameters);
+  return context;
+}
+
+ProcessContext::ProcessContext(const ros::NodeHandle& nh, const ros::NodeHandle& parameters)
+    : params_(readContextParams(ParameterReader(parameters))),
+      nh_(nh),
+      router_(routerOf(params_)),
+      vehicle_pose_(params_.map_frame, params_.base_frame, params_.max_pose_age),
+      registry_([publisher = advertise<CommandStatus>(params_.status_topic, false)](const CommandStatus& status) {
+        publisher.publish(status);
+      }),
+      display_(nh, {params_.path_topic, params_.markers_topic, params_.map_frame, params_.base_frame, params_.vehicle},
+               router_ ? router_->mapPtr() : nullptr) {
+  publishOrigin(parameters, router_.get());
+  ros::SteadyTimerOptions options;
+  options.period = ros::WallDuration(kSilenceCheckPeriod);
+  options.callback = [this](const ros::SteadyTimerEvent&) { registry_.noteSilence(params_.planner_silence_timeout); };
+  options.callback_queue = housekeeping_.queue();
+  silence_timer_ = nh_.createSteadyTimer(options);
+}
+
+const Router& ProcessContext::requireRouter() const {
+  if (router_) return *router_;
+  throw NotReady("no map is loaded; set ~map_file of the component and start it again");
+}
+
+}  // namespace external_command

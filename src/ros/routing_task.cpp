@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "external_command/ros/routing_task.h"
+
+#include <optional>
+
+#include "external_command/core/text.h"
+#include "external_command/ros/conversions.h"
+#include "external_command/routing/black_list.h"
+
+namespace external_command {
+
+namespace {
+
+LaneWaypoint toMsg(const HdMap& map, const LanePoint& point) {
+  const Pose2d pose = map.lane(point.lane).center.poseAt(point.s);
+  LaneWaypoint msg;
+  msg.id = map.lane(point.lane).id;
+  msg.s = point.s;
+  msg.pose = toPointMsg(pose.position());
+  msg.heading = pose.heading;
+  msg.has_heading = true;
+  return msg;
+}
+
+LanePoint onLane(const ProcessContext& context, const Pose& pose, const Pose2d& frame, const std::string& field) {
+  const Pose2d at_map = toMapPose(pose, frame);
+  const auto heading = pose.has_heading ? std::optional<double>(at_map.heading) : std::nullopt;
+  return LaneWayTool(context.requireRouter().map(), context.params().lane_way)
+      .fromPose(at_map.position(), heading, field);
+}
+
+}  // namespace
+
+RoutingTask beginRoutingTask(const ProcessContext& context, const std::string& frame_id, bool is_start_pose_set,
+                             const std::vector<Pose>& way_points) {
+  const HdMap& map = context.requireRouter().map();
+  const Pose2d frame = context.vehiclePose().ofFrame(frame_id);
+  RoutingTask task;
+  task.request.header.frame_id = context.params().map_frame;
+  task.request.header.stamp = ros::Time::now();
+  task.request.is_start_pose_set = is_start_pose_set;
+  if (!is_start_pose_set) {
+    task.query.starts = LaneWayTool(map, context.params().lane_way).fromVehicle(context.vehiclePose().get());
+    task.request.waypoint.push_back(toMsg(map, task.query.starts.front()));
+  }
+  for (std::size_t i = 0; i < way_points.size(); ++i) {
+    const LanePoint point = onLane(context, way_points[i], frame, text("way_point[", i, "]"));
+    task.request.waypoint.push_back(toMsg(map, point));
+    if (i == 0 && is_start_pose_set) {
+      task.query.starts = {point};
+    } else {
+      task.query.via.push_back({point});
+      task.way_points.push_back(toMapPose(way_points[i], frame).position());
+    }
+  }
+  return task;
+}
+
+void addBlackList(const HdMap& map, const std::vector<LaneSegment>& lanes, const std::vector<std::string>& roads,
+                  RoutingTask* task) {
+  std::vector<BlackListedLane> parts;
+  for (const LaneSegment& lane : lanes) parts.push_back({lane.id, lane.start_s, lane.end_s});
+  task->query.black_list = blackList(map, parts, roads);
+  task->request.blacklisted_lane = lanes;
+  task->request.blacklisted_road = roads;
+}
+
+void setGoal(const ProcessContext& context, const std::string& frame_id, const Pose& pose, const std::string& field,
+             RoutingTask* task) {
+  setGoals(context.requireRouter().map(), {onLane(context, pose, context.vehiclePose().ofFrame(frame_id), field)},
+           task);
+}
+
+void setGoals(const HdMap& map, const std::vector<LanePoint>& candidates, RoutingTask* task) {
+  task->query.goals = candidates;
+  task->request.waypoint.push_back(toMsg(map, candidates.front()));
+}
+
+}  // namespace external_command

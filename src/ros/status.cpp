@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "external_command/ros/status.h"
+
+#include <ros/time.h>
+
+namespace external_command {
+
+CommandStatus makeStatus(std::int64_t command_id, std::uint8_t status, ErrorCode code, const std::string& message) {
+  CommandStatus made;
+  made.header.stamp = ros::Time::now();
+  made.command_id = command_id;
+  made.status = status;
+  made.error_code = static_cast<std::uint16_t>(code);
+  made.message = message;
+  return made;
+}
+
+CommandStatus statusFrom(const std::exception_ptr& error, std::int64_t command_id) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const Error& known) {
+    return makeStatus(command_id, CommandStatus::ERROR, known.code(), known.what());
+  } catch (const std::exception& unknown) {
+    return makeStatus(command_id, CommandStatus::ERROR, ErrorCode::kInternalError, unknown.what());
+  } catch (...) {
+    return makeStatus(command_id, CommandStatus::ERROR, ErrorCode::kInternalError, "an exception of unknown type");
+  }
+}
+
+bool hasEnded(const CommandStatus& status) { return status.status != CommandStatus::RUNNING; }
+
+}  // namespace external_command

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "external_command/ros/vehicle_pose.h"
+
+#include <tf2/utils.h>
+
+#include <utility>
+
+#include "external_command/core/error.h"
+#include "external_command/core/text.h"
+
+namespace external_command {
+
+namespace {
+
+Pose2d toPose(const geometry_msgs::Transform& transform) {
+  return {transform.translation.x, transform.translation.y,
+          tf2::getYaw(
+              tf2::Quaternion(transform.rotation.x, transform.rotation.y, transform.rotation.z, transform.rotation.w))};
+}
+
+}  // namespace
+
+VehiclePose::VehiclePose(std::string map_frame, std::string base_frame, double max_age)
+    : map_frame_(std::move(map_frame)), base_frame_(std::move(base_frame)), max_age_(max_age), listener_(buffer_) {}
+
+Pose2d VehiclePose::get() const {
+  geometry_msgs::TransformStamped transform;
+  try {
+    transform = buffer_.lookupTransform(map_frame_, base_frame_, ros::Time(0));
+  } catch (const tf2::TransformException& error) {
+    throw NotReady(text("the vehicle's pose is not known: no transform ", map_frame_, " -> ", base_frame_, " (",
+                        error.what(), "); start the localization, or set ~map_frame and ~base_frame"));
+  }
+  const double age = (ros::Time::now() - transform.header.stamp).toSec();
+  const bool is_static = transform.header.stamp.isZero();
+  if (!is_static && age > max_age_) {
+    throw NotReady(text("the vehicle's pose is ", age, " s old (transform ", map_frame_, " -> ", base_frame_,
+                        "); the limit is ", max_age_, " s (~max_pose_age): has the localization stopped?"));
+  }
+  const Pose2d pose = toPose(transform.transform);
+  if (!pose.isFinite()) throw NotReady(text("the transform ", map_frame_, " -> ", base_frame_, " is not finite"));
+  return pose;
+}
+
+Pose2d VehiclePose::ofFrame(const std::string& frame) const {
+  if (frame.empty() || frame == map_frame_) return {};
+  try {
+    return toPose(buffer_.lookupTransform(map_frame_, frame, ros::Time(0)).transform);
+  } catch (const tf2::TransformException& error) {
+    throw InvalidRequest(text("header.frame_id '", frame, "' cannot be transformed to '", map_frame_,
+                              "': ", error.what(), "; leave it empty for '", map_frame_, "'"));
+  }
+}
+
+}  // namespace external_command
