@@ -1,54 +1,174 @@
 // SPDX-License-Identifier: Apache-2.0
-#define BOOST_BIND_GLOBAL_PLACEHOLDERS
-#include <boost/property_tree/json_parser.hpp>
-#include <boost/property_tree/ptree.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
-#include <fstream>
-#include <iostream>
+#include <functional>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "external_command/core/error.h"
 #include "external_command/free_space/free_space_planner.h"
-using namespace external_command;
-namespace pt = boost::property_tree;
-static std::vector<double> nums(const pt::ptree& t) { std::vector<double> v; for (auto& c : t) v.push_back(c.second.get_value<double>()); return v; }
+#include "external_command/free_space/planner_log.h"
+#include "parking_case.h"
+#include "path_files.h"
+
+namespace external_command {
+namespace benchmark {
+
+namespace {
+
+constexpr const char* kUsage = R"(usage: benchmark_free_space [OPTION...] DIR|FILE...
+Plans every parking case (*.json), one line each and a summary. Needs no ROS master.
+  --time-budget S   for each case, improvement included (1)
+  --improve S       of it, for improving the first path (all that is left)
+  --planner NAME    portfolio, hybrid_astar, or OMPL's rrtconnect, rrtstar, kpiece (portfolio)
+  --seed N          of the random numbers (1)
+  --threads N       that improve the path side by side (1)
+  --margin M        distance kept to all obstacles [m] (0.01)
+  --continuous      curvature continuous between gear changes
+  --paths DIR       write each path as DIR/CASE.json: [[x, y, theta, direction], ...]
+  --svg DIR         draw each path as DIR/CASE.svg
+Columns: time and cost of the first valid path, cost of the final one (in brackets: of best_known.json beside the
+cases), its length [m], gear changes and clearance [m], and the time that the case took on the wall clock and on the
+processor [s]. Cost is length plus 3 m per gear change.
+)";
+
+struct Options {
+  FreeSpaceParams params;
+  std::vector<std::string> inputs;
+  std::string paths;
+  std::string drawings;
+};
+
+struct Summary {
+  std::size_t cases = 0;
+  std::vector<double> first_times, first_ratios, ratios;
+};
+
+Options parse(const std::vector<std::string>& words) {
+  Options options;
+  FreeSpaceParams& params = options.params;
+  params.margin = 0.01;
+  params.improve_iterations = 0;
+  double improve = -1.0;
+  std::size_t i = 0;
+  const auto value = [&] {
+    if (i + 1 >= words.size()) throw std::invalid_argument(words[i] + " needs a value");
+    return words[++i];
+  };
+  const std::map<std::string, std::function<void()>> known{
+      {"--time-budget", [&] { params.time_budget = std::stod(value()); }},
+      {"--improve", [&] { improve = std::stod(value()); }},
+      {"--planner", [&] { params.planner = value(); }},
+      {"--seed", [&] { params.seed = static_cast<unsigned>(std::stoul(value())); }},
+      {"--threads", [&] { params.threads = static_cast<unsigned>(std::stoul(value())); }},
+      {"--margin", [&] { params.margin = std::stod(value()); }},
+      {"--continuous", [&] { params.continuous_curvature = true; }},
+      {"--paths", [&] { options.paths = value(); }},
+      {"--svg", [&] { options.drawings = value(); }}};
+  for (; i < words.size(); ++i) {
+    const auto option = known.find(words[i]);
+    if (option != known.end()) {
+      option->second();
+    } else if (words[i].rfind("--", 0) == 0) {
+      throw std::invalid_argument("unknown option " + words[i]);
+    } else {
+      options.inputs.push_back(words[i]);
+    }
+  }
+  params.improve_budget = improve < 0.0 ? params.time_budget : improve;
+  if (options.inputs.empty()) throw std::invalid_argument("give a folder or files of cases");
+  return options;
+}
+
+void report(const FreeSpaceResult& result, double best_known, double cpu_seconds, Summary* summary) {
+  summary->first_times.push_back(result.first_path_time);
+  std::printf("first %7.2f ms %7.3f", 1e3 * result.first_path_time, result.first_path_cost);
+  if (best_known > 0.0) {
+    summary->first_ratios.push_back(result.first_path_cost / best_known);
+    summary->ratios.push_back(result.cost / best_known);
+    std::printf(" (%.3f)", summary->first_ratios.back());
+  }
+  std::printf("  final %7.3f", result.cost);
+  if (best_known > 0.0) std::printf(" (%.3f)", summary->ratios.back());
+  std::printf("  length %7.3f  gear changes %2u  clearance %.3f  time %.3f  cpu %.3f\n", result.length,
+              result.gear_changes, result.min_clearance, result.planning_time, cpu_seconds);
+}
+
+void runCase(const std::string& file, const Options& options, Summary* summary) {
+  const ParkingCase task = readParkingCase(file);
+  const std::map<std::string, double> best_known = bestKnownCosts(file);
+  const auto known = best_known.find(task.name);
+  std::printf("%-28s ", task.name.c_str());
+  const std::clock_t begin = std::clock();
+  try {
+    const FreeSpacePlanner planner(task.vehicle, options.params);
+    const FreeSpaceResult result = planner.plan(task.start, {task.goal}, task.region, {});
+    const double cpu_seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    report(result, known == best_known.end() ? 0.0 : known->second, cpu_seconds, summary);
+    if (!options.paths.empty()) writePath(task, result.path, options.paths + "/" + task.name + ".json");
+    if (!options.drawings.empty()) writeDrawing(task, result.path, options.drawings + "/" + task.name + ".svg");
+  } catch (const Error& error) {
+    std::printf("FAILED %s: %s\n", toString(error.code()), error.what());
+  }
+  std::fflush(stdout);
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+double largest(const std::vector<double>& values) {
+  return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
+}
+
+void print(const Summary& summary) {
+  std::printf("solved %zu of %zu; first path: median %.2f ms, slowest %.2f ms", summary.first_times.size(),
+              summary.cases, 1e3 * median(summary.first_times), 1e3 * largest(summary.first_times));
+  if (!summary.ratios.empty()) {
+    std::printf("; cost over best known, median (largest): first %.3f (%.3f), final %.3f (%.3f)",
+                median(summary.first_ratios), largest(summary.first_ratios), median(summary.ratios),
+                largest(summary.ratios));
+  }
+  std::printf("\n");
+}
+
+int run(const std::vector<std::string>& words) {
+  if (std::find(words.begin(), words.end(), "--help") != words.end()) {
+    std::fputs(kUsage, stdout);
+    return 0;
+  }
+  const Options options = parse(words);
+  options.params.validate();
+  for (const std::string& folder : {options.paths, options.drawings}) {
+    if (!folder.empty()) std::filesystem::create_directories(folder);
+  }
+  setPlannerLog({});
+  Summary summary;
+  for (const std::string& file : parkingCaseFiles(options.inputs)) {
+    ++summary.cases;
+    runCase(file, options, &summary);
+  }
+  print(summary);
+  return 0;
+}
+
+}  // namespace
+
+}  // namespace benchmark
+}  // namespace external_command
+
 int main(int argc, char** argv) {
-  FreeSpaceParams params; params.margin = 0.01; params.time_budget = 1; params.improve_budget = 10; params.improve_iterations = 0;
-  std::vector<std::string> files; std::string out; double total=1;
-  for (int i = 1; i < argc; ++i) {
-    std::string a = argv[i];
-    if (a == "--margin") params.margin = atof(argv[++i]);
-    else if (a == "--improve") params.improve_budget = atof(argv[++i]);
-    else if (a == "--time-budget") params.time_budget = atof(argv[++i]);
-    else if (a == "--seed") params.seed = atoi(argv[++i]);
-    else if (a == "--paths") out = argv[++i];
-    else if (std::filesystem::is_directory(a)) { for (auto& e : std::filesystem::directory_iterator(a)) if (e.path().extension() == ".json" && e.path().stem() != "best_known") files.push_back(e.path()); }
-    else files.push_back(a);
+  try {
+    return external_command::benchmark::run({argv + 1, argv + argc});
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "benchmark_free_space: %s\nSee benchmark_free_space --help.\n", error.what());
+    return 2;
   }
-  std::sort(files.begin(), files.end());
-  pt::ptree best; try { pt::read_json("/work/shared/data/parking/best_known.json", best); } catch (...) {}
-  std::vector<double> tfirst, rfirst, rfinal; int ok = 0;
-  for (auto& f : files) {
-    pt::ptree t; pt::read_json(f, t);
-    VehicleParams v; v.wheelbase = t.get<double>("vehicle.wheelbase"); v.width = t.get<double>("vehicle.width"); v.front_overhang = t.get<double>("vehicle.front_overhang"); v.rear_overhang = t.get<double>("vehicle.rear_overhang"); v.min_turning_radius = t.get<double>("vehicle.min_turning_radius");
-    auto s = nums(t.get_child("start")), g = nums(t.get_child("goal")), b = nums(t.get_child("bounds"));
-    const auto t0 = std::chrono::steady_clock::now();
-    Region::Parts parts; const double ox=std::round(g[0]), oy=std::round(g[1]); parts.axle_bounds = BoundingBox{{b[0]-ox, b[1]-oy}, {b[2]-ox, b[3]-oy}};
-    for (auto& o : t.get_child("obstacles")) { std::vector<Point2d> p; for (auto& q : o.second) { auto n = nums(q.second); p.push_back({n[0]-ox, n[1]-oy}); } parts.non_drivable.emplace_back(p, "obstacle"); }
-    Region region(parts); 
-    const double tr = std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
-    std::string name = std::filesystem::path(f).stem();
-    try {
-      FreeSpacePlanner planner(v, params);
-      auto r = planner.plan({s[0]-ox, s[1]-oy, s[2]}, {{g[0]-ox, g[1]-oy, g[2]}}, region, {});
-      double bk = best.get<double>(name + ".cost", 0);
-      ok++; tfirst.push_back(r.first_path_time); if (bk > 0) rfirst.push_back(r.first_path_cost / bk), rfinal.push_back(r.cost / bk);
-      printf("%-28s first %7.2f ms cost %6.2f (%.3f)  final %6.2f (%.3f) gears %u  region %.2f ms\n", name.c_str(), 1e3 * r.first_path_time, r.first_path_cost, r.first_path_cost / bk, r.cost, r.cost / bk, r.gear_changes, 1e3*tr);
-      if (!out.empty()) { std::ofstream o(out + "/" + name + ".json"); o.precision(17); o << "["; bool c = false; for (auto& p : r.path) { o << (c ? "," : "") << "[" << p.x+ox << "," << p.y+oy << "," << p.heading << "," << int(p.direction) << "]"; c = true; } o << "]"; }
-    } catch (const Error& e) { printf("%-28s FAILED %s\n", name.c_str(), e.what()); }
-    fflush(stdout);
-  }
-  auto med = [](std::vector<double> v) { if (v.empty()) return 0.0; std::sort(v.begin(), v.end()); return v[v.size() / 2]; };
-  printf("solved %d/%zu; first median %.2f ms max %.2f ms; ratio first median %.3f, final %.3f max %.3f\n", ok, files.size(), 1e3 * med(tfirst), tfirst.empty()?0:1e3 * *std::max_element(tfirst.begin(), tfirst.end()), med(rfirst), med(rfinal), rfinal.empty()?0:*std::max_element(rfinal.begin(), rfinal.end()));
 }

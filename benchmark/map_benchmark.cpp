@@ -3,7 +3,7 @@
 // map_benchmark FILE...
 // Measures, for each map file, how long loading takes beside protobuf's own parsing of the same bytes, how much memory
 // the loaded map needs and how long a nearest-lane query takes. Prints one JSON array.
-#include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,7 +14,6 @@
 #include <random>
 #include <sstream>
 
-#include "external_command/core/text.h"
 #include "external_command/map/map_reader.h"
 #include "external_command/proto/base_map.pb.h"
 
@@ -86,6 +85,25 @@ std::string report(const std::string& file) {
   return out.str();
 }
 
+/// Each file is measured in a process of its own, so that none finds the memory of the one before.
+bool reportInChild(const std::string& file, const char* end) {
+  std::cout.flush();
+  const pid_t child = ::fork();
+  if (child == 0) {
+    int status = 0;
+    try {
+      std::cout << report(file) << end;
+    } catch (const std::exception& error) {
+      std::cerr << error.what() << "\n";
+      status = 1;
+    }
+    std::cout.flush();
+    ::_exit(status);
+  }
+  int status = 1;
+  return child > 0 && ::waitpid(child, &status, 0) == child && status == 0;
+}
+
 }  // namespace
 }  // namespace external_command
 
@@ -94,15 +112,9 @@ int main(int argc, char** argv) {
     std::cerr << "usage: map_benchmark FILE...\n";
     return 1;
   }
-  try {
-    std::cout << "[\n";
-    for (int i = 1; i < argc; ++i) {
-      std::cout << external_command::report(argv[i]) << (i + 1 < argc ? ",\n" : "\n");
-    }
-    std::cout << "]\n";
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << "\n";
-    return 1;
-  }
-  return 0;
+  bool ok = true;
+  std::cout << "[\n";
+  for (int i = 1; i < argc; ++i) ok &= external_command::reportInChild(argv[i], i + 1 < argc ? ",\n" : "\n");
+  std::cout << "]\n";
+  return ok ? 0 : 1;
 }

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "parking_case.h"
+
+#define BOOST_BIND_GLOBAL_PLACEHOLDERS  // Boost's own JSON parser still uses them
+#include <algorithm>
+#include <boost/property_tree/json_parser.hpp>
+#include <boost/property_tree/ptree.hpp>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+#include "external_command/core/error.h"
+
+namespace external_command {
+namespace benchmark {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Tree = boost::property_tree::ptree;
+
+constexpr const char* kBestKnown = "best_known.json";
+constexpr double kThinnest = 1e-3;  ///< half the width given to an obstacle that has none [m]
+
+std::vector<double> numbersOf(const Tree& tree, std::size_t wanted, const std::string& what) {
+  std::vector<double> numbers;
+  for (const auto& child : tree) numbers.push_back(child.second.get_value<double>());
+  if (numbers.size() != wanted) throw std::runtime_error(what + " must be " + std::to_string(wanted) + " numbers");
+  return numbers;
+}
+
+/// Andrew's monotone chain.
+std::vector<Point2d> convexHull(std::vector<Point2d> points) {
+  std::sort(points.begin(), points.end(), [](const Point2d& a, const Point2d& b) {
+    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
+  });
+  std::vector<Point2d> hull;
+  const auto addAll = [&](auto begin, auto end) {
+    const std::size_t base = hull.size();
+    for (auto point = begin; point != end; ++point) {
+      while (hull.size() >= base + 2 && cross(hull.back() - hull[hull.size() - 2], *point - hull.back()) <= 0.0) {
+        hull.pop_back();
+      }
+      hull.push_back(*point);
+    }
+    hull.pop_back();
+  };
+  addAll(points.begin(), points.end());
+  addAll(points.rbegin(), points.rend());
+  return hull;
+}
+
+Polygon obstacleOf(const std::vector<Point2d>& points, const std::string& name) {
+  try {
+    return Polygon(points, name);
+  } catch (const InvalidRequest&) {
+    std::vector<Point2d> thickened;
+    for (const Point2d& point : points) {
+      for (const double dx : {-kThinnest, kThinnest}) {
+        for (const double dy : {-kThinnest, kThinnest}) thickened.emplace_back(point + Point2d(dx, dy));
+      }
+    }
+    return Polygon(convexHull(thickened), name);
+  }
+}
+
+VehicleParams vehicleOf(const Tree& tree) {
+  VehicleParams vehicle;
+  vehicle.wheelbase = tree.get<double>("wheelbase");
+  vehicle.width = tree.get<double>("width");
+  vehicle.front_overhang = tree.get<double>("front_overhang");
+  vehicle.rear_overhang = tree.get<double>("rear_overhang");
+  const auto radius = tree.get_optional<double>("min_turning_radius");
+  vehicle.min_turning_radius = radius ? *radius : vehicle.wheelbase / std::tan(tree.get<double>("max_steer"));
+  return vehicle;
+}
+
+Region regionOf(const Tree& tree, const Point2d& origin) {
+  Region::Parts parts;
+  const std::vector<double> bounds = numbersOf(tree.get_child("bounds"), 4, "bounds");
+  parts.axle_bounds = BoundingBox{Point2d(bounds[0], bounds[1]) - origin, Point2d(bounds[2], bounds[3]) - origin};
+  for (const auto& ring : tree.get_child("obstacles")) {
+    std::vector<Point2d> points;
+    for (const auto& corner : ring.second) {
+      const std::vector<double> xy = numbersOf(corner.second, 2, "a corner of an obstacle");
+      points.emplace_back(Point2d(xy[0], xy[1]) - origin);
+    }
+    parts.non_drivable.push_back(obstacleOf(points, "obstacles[" + std::to_string(parts.non_drivable.size()) + "]"));
+  }
+  return Region(std::move(parts));
+}
+
+}  // namespace
+
+ParkingCase readParkingCase(const std::string& file) {
+  try {
+    Tree tree;
+    boost::property_tree::read_json(file, tree);
+    const std::vector<double> start = numbersOf(tree.get_child("start"), 3, "start");
+    const std::vector<double> goal = numbersOf(tree.get_child("goal"), 3, "goal");
+    ParkingCase result;
+    result.name = tree.get<std::string>("name", fs::path(file).stem().string());
+    result.vehicle = vehicleOf(tree.get_child("vehicle"));
+    result.origin = {std::round(goal[0]), std::round(goal[1])};
+    result.start = {start[0] - result.origin.x(), start[1] - result.origin.y(), start[2]};
+    result.goal = {goal[0] - result.origin.x(), goal[1] - result.origin.y(), goal[2]};
+    result.region = regionOf(tree, result.origin);
+    return result;
+  } catch (const std::exception& error) {
+    throw std::runtime_error(file + " is no parking case: " + error.what());
+  }
+}
+
+std::vector<std::string> parkingCaseFiles(const std::vector<std::string>& files_and_folders) {
+  std::vector<std::string> files;
+  for (const std::string& name : files_and_folders) {
+    if (!fs::exists(name)) throw std::runtime_error("there is no file or folder " + name);
+    if (!fs::is_directory(name)) {
+      files.push_back(name);
+      continue;
+    }
+    for (const fs::directory_entry& entry : fs::directory_iterator(name)) {
+      const fs::path& path = entry.path();
+      if (path.extension() == ".json" && path.filename() != kBestKnown) files.push_back(path.string());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::map<std::string, double> bestKnownCosts(const std::string& file) {
+  std::map<std::string, double> costs;
+  const fs::path path = fs::path(file).parent_path() / kBestKnown;
+  if (!fs::exists(path)) return costs;
+  Tree tree;
+  boost::property_tree::read_json(path.string(), tree);
+  for (const auto& entry : tree) costs[entry.first] = entry.second.get<double>("cost");
+  return costs;
+}
+
+}  // namespace benchmark
+}  // namespace external_command

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace external_command {
+
+/// How a free-space path is searched for, and what makes it good: the cheapest path is the one with the smallest
+/// `forward length + reverse_factor * reverse length + gear_change_cost * gear changes`.
+struct FreeSpaceParams {
+  std::string planner = "portfolio";    ///< one of freeSpacePlanners()
+  double margin = 0.10;                 ///< distance the footprint keeps to every obstacle and border, [0, 5] [m]
+  double time_budget = 1.0;             ///< the answer comes within this time, improvement included, (0, 3600] [s]
+  double improve_budget = 0.2;          ///< of it, spent at most on improving the first path, not negative [s]
+  unsigned max_iterations = 1000000;    ///< of the search for the first path; bounds the memory too, [1, 10000000]
+  unsigned improve_iterations = 10000;  ///< of the improvement; 0: until improve_budget is spent
+  unsigned seed = 1;                    ///< same request, same seed, budgets not reached by the clock: same path
+  unsigned threads = 1;                 ///< that improve the path side by side, [1, 64]
+
+  double gear_change_cost = 3.0;  ///< price of a gear change, as length, not negative [m]
+  double reverse_factor = 1.0;    ///< price of a metre in reverse, as length forward, [1, 100]
+  double spacing = 0.05;          ///< between points of the result, at most, [0.01, 1] [m]
+  double straight_last = 0.0;     ///< the path ends with a straight stretch at least this long, [0, 20] [m]
+
+  bool continuous_curvature = false;  ///< between gear changes the steering moves no faster than the vehicle can
+  double manoeuvre_speed = 0.5;       ///< for which that is so, (0, 5] [m/s]
+
+  /// @throws InvalidParameter  a value is out of range: the text names key, value and range.
+  void validate() const;
+};
+
+/// Names that FreeSpaceParams::planner takes: "portfolio" (the default: own search, shortening, improvement),
+/// "hybrid_astar" (the search alone), and OMPL's "rrtconnect", "bitstar", "rrtstar", "kpiece" on Reeds-Shepp curves.
+const std::vector<std::string>& freeSpacePlanners();
+
+}  // namespace external_command

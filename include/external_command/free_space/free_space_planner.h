@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "external_command/core/cancel_token.h"
+#include "external_command/core/path.h"
+#include "external_command/core/vehicle.h"
+#include "external_command/free_space/free_space_params.h"
+#include "external_command/free_space/region.h"
+
+namespace external_command {
+
+struct FreeSpaceResult {
+  Path path;                    ///< of the rear-axle centre, from start to goal, speed limits included
+  double cost = 0.0;            ///< see FreeSpaceParams [m]
+  double length = 0.0;          ///< driven, in both gears [m]
+  double reverse_length = 0.0;  ///< of it in reverse [m]
+  unsigned gear_changes = 0;
+  double min_clearance = 0.0;    ///< of the bare footprint to obstacles and borders, at most 10 m [m]
+  double planning_time = 0.0;    ///< wall clock [s]
+  double first_path_time = 0.0;  ///< until the first valid path was there [s]
+  double first_path_cost = 0.0;  ///< its cost [m]
+  std::string planner;           ///< what found the path
+  std::size_t goal_index = 0;    ///< which of the goals it reaches
+};
+
+/// Plans a path for a car-like vehicle from pose to pose inside a region. Thread-safe: const, no shared state.
+class FreeSpacePlanner {
+ public:
+  /// @throws InvalidParameter  a value of `vehicle` or `params` is out of range.
+  FreeSpacePlanner(const VehicleParams& vehicle, const FreeSpaceParams& params);
+
+  /// The cheapest path found that begins at `start` and ends at one of `goals` (nose in or backing in, for example),
+  /// within 1 mm and 0.01 degrees; checked once more, finely and exactly, before it is returned. Its points are at most
+  /// `spacing` apart, and between two neighbours curvature and gear are constant up to the rounding of the spacing.
+  /// @throws InvalidRequest   a pose is not finite, there is no goal, or start and goals lie over 10 km apart.
+  /// @throws StartBlocked     the footprint collides at the start; the text says with what and by how much.
+  /// @throws GoalBlocked      it does at every goal.
+  /// @throws NoPath           the search has shown that there is none at its finest resolution, or used its iterations.
+  /// @throws PlanningTimeout  time_budget ran out first.
+  /// @throws Cancelled        `cancel` was raised; noticed within a few milliseconds.
+  FreeSpaceResult plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region,
+                       const CancelToken& cancel) const;
+
+ private:
+  VehicleParams vehicle_;
+  FreeSpaceParams params_;
+};
+
+}  // namespace external_command

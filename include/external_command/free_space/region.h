@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "external_command/core/polygon.h"
+#include "external_command/core/pose.h"
+
+namespace external_command {
+
+/// Obstacles seen by sensors, the meaning of `nav_msgs/OccupancyGrid`. What lies beyond the grid counts as unknown.
+struct OccupancyGrid {
+  double resolution = 0.0;         ///< side of a cell [m]
+  std::uint32_t width = 0;         ///< cells along the grid's x
+  std::uint32_t height = 0;        ///< cells along the grid's y
+  Pose2d origin;                   ///< of the outer corner of cell (0, 0); the heading turns the whole grid
+  std::vector<std::int8_t> cells;  ///< row by row along x: -1 unknown, 0 free ... 100 occupied
+  int blocked_from = 50;           ///< cells with this value or more are obstacles, in [1, 100]
+  bool unknown_is_blocked = true;  ///< cells below 0, and everything beyond the grid, are obstacles
+};
+
+/// Where a vehicle may be. Immutable and thread-safe; far from the origin nothing is lost.
+class Region {
+ public:
+  /// Every part may be left out.
+  struct Parts {
+    std::optional<Polygon> drivable;         ///< the whole footprint stays inside; left out: no border
+    std::vector<Polygon> non_drivable;       ///< filled obstacles
+    std::optional<OccupancyGrid> grid;       ///< further obstacles
+    std::optional<BoundingBox> axle_bounds;  ///< the rear-axle centre stays inside this box
+  };
+
+  /// No border, no obstacle.
+  Region() = default;
+
+  /// @throws InvalidRequest  the grid's size, resolution or origin is wrong, or the box is empty: the text says which.
+  explicit Region(Parts parts);
+
+  const std::optional<Polygon>& drivable() const { return parts_.drivable; }
+  const std::vector<Polygon>& nonDrivable() const { return parts_.non_drivable; }
+  const std::optional<OccupancyGrid>& grid() const { return parts_.grid; }
+  const std::optional<BoundingBox>& axleBounds() const { return parts_.axle_bounds; }
+
+ private:
+  Parts parts_;
+};
+
+}  // namespace external_command

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "path_improver.h"
+#include "two_way_search.h"
+
+namespace external_command {
+
+/// Uses whatever time it gets to make a path cheaper: improves it locally and, when that no longer helps, searches anew
+/// with other settings for a path of another shape.
+class AnytimeImprover {
+ public:
+  AnytimeImprover(const Scene& scene, const Query& query, const BoundingBox& area, std::uint64_t seed);
+
+  /// @param arcs  a free path for the query.
+  Arcs improve(const Arcs& arcs, WorkBudget* budget);
+
+ private:
+
+  Scene scene_;
+  Query query_;
+  BoundingBox area_;
+  Random random_;
+  PathImprover improver_;
+};
+
+}  // namespace external_command

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "footprint_index.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace external_command {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kCellSize = 0.5;       ///< [m]
+constexpr double kMaxCells = 500'000.0;
+constexpr double kBeyond = 0.25;        ///< edges are listed this far beyond the reach, so that room can be measured [m]
+constexpr double kFineStep = 2e-3;      ///< most that a corner moves between two checks where there is no room [m]
+
+BoundingBox emptyBox() { return {Point2d(kInfinity, kInfinity), Point2d(-kInfinity, -kInfinity)}; }
+
+double squared(double a) { return a * a; }
+
+/// Squared distance from (u, v) to the box [-l, l] x [-w, w].
+double pointToBox(double u, double v, double l, double w) {
+  return squared(std::max(std::abs(u) - l, 0.0)) + squared(std::max(std::abs(v) - w, 0.0));
+}
+
+
+}  // namespace
+
+FootprintIndex::FootprintIndex(const VehicleParams& vehicle, double margin, const Region& region,
+                               const Point2d& origin)
+    : obstacles_(region, origin),
+      box_(vehicle),
+      margin_(margin),
+      reach_(box_.circumradius() + margin),
+      extent_(emptyBox()),
+      axle_bounds_{Point2d(-kInfinity, -kInfinity), Point2d(kInfinity, kInfinity)},
+      outside_is_free_(!obstacles_.isOutsideFilled()) {
+  if (region.axleBounds()) axle_bounds_ = {region.axleBounds()->min - origin, region.axleBounds()->max - origin};
+  for (const ObstacleEdge& edge : obstacles_.edges()) {
+    const Point2d middle = 0.5 * (edge.begin + edge.end), half = 0.5 * (edge.end - edge.begin);
+    edges_.push_back({middle.x(), middle.y(), half.x(), half.y()});
+  }
+  setExtent();
+  fillStates();
+  spreadEdges();
+  extendNear();
+}
+
+void FootprintIndex::setExtent() {
+  for (const ObstacleEdge& edge : obstacles_.edges()) {
+    extent_.min = extent_.min.cwiseMin(edge.begin).cwiseMin(edge.end);
+    extent_.max = extent_.max.cwiseMax(edge.begin).cwiseMax(edge.end);
+  }
+  if (edges_.empty()) return;
+  const double pad = reach_ + std::abs(box_.centre);
+  extent_.min = extent_.min.cwiseMax(axle_bounds_.min - Point2d(pad, pad));
+  extent_.max = extent_.max.cwiseMin(axle_bounds_.max + Point2d(pad, pad));
+  const Point2d size = (extent_.max - extent_.min).cwiseMax(0.0) + 2.0 * Point2d(reach_, reach_);
+  cell_size_ = std::max(kCellSize, std::sqrt(size.x() * size.y() / kMaxCells));
+  cell_reach_ = cell_size_ * M_SQRT1_2;
+  columns_ = static_cast<long>(size.x() / cell_size_) + 1;
+  rows_ = static_cast<long>(size.y() / cell_size_) + 1;
+}
+
+Point2d FootprintIndex::cellCentre(long column, long row) const {
+  return extent_.min - Point2d(reach_, reach_) +
+         cell_size_ * Point2d(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
+}
+
+long FootprintIndex::cellAt(double x, double y) const {
+  const double column = (x - extent_.min.x() + reach_) / cell_size_, row = (y - extent_.min.y() + reach_) / cell_size_;
+  if (!(column >= 0.0 && row >= 0.0 && column < static_cast<double>(columns_) && row < static_cast<double>(rows_))) {
+    return -1;
+  }
+  return static_cast<long>(row) * columns_ + static_cast<long>(column);
+}
+
+void FootprintIndex::fillStates() {
+  states_.assign(static_cast<std::size_t>(columns_ * rows_), State::kFree);
+  const Region& region = obstacles_.region();
+  if (region.drivable()) fillPolygon(*region.drivable(), false);
+  for (const Polygon& polygon : region.nonDrivable()) fillPolygon(polygon, true);
+  if (!region.grid()) return;
+  for (long row = 0; row < rows_; ++row) {
+    for (long column = 0; column < columns_; ++column) {
+      State& state = states_[static_cast<std::size_t>(row * columns_ + column)];
+      if (obstacles_.isFilledBy(kGridSource, cellCentre(column, row))) state = State::kFilled;
+    }
+  }
+}
+
+/// Marks the cells whose centre lies inside (or outside) the polygon, row by row (even-odd rule).
+void FootprintIndex::fillPolygon(const Polygon& polygon, bool inside) {
+  const std::vector<Point2d>& points = polygon.points();
+  std::vector<double> crossings;
+  for (long row = 0; row < rows_; ++row) {
+    const double y = cellCentre(0, row).y() + obstacles_.origin().y();
+    if (inside && (y < polygon.box().min.y() || y > polygon.box().max.y())) continue;
+    crossings.clear();
+    for (std::size_t i = 0, j = points.size() - 1; i < points.size(); j = i++) {
+      const Point2d &a = points[i], &b = points[j];
+      if ((a.y() > y) == (b.y() > y)) continue;
+      crossings.push_back((b.x() - a.x()) * (y - a.y()) / (b.y() - a.y()) + a.x() - obstacles_.origin().x());
+    }
+    std::sort(crossings.begin(), crossings.end());
+    std::size_t passed = 0;
+    for (long column = 0; column < columns_; ++column) {
+      const double x = cellCentre(column, row).x();
+      while (passed < crossings.size() && crossings[passed] < x) ++passed;
+      if ((passed % 2 == 1) == inside) states_[static_cast<std::size_t>(row * columns_ + column)] = State::kFilled;
+    }
+  }
+}
+
+/// Lists each edge in the cells from which the footprint reaches it, and lowers their `near_`.
+void FootprintIndex::spreadEdges() {
+  const double reach = reach_ + cell_reach_ + kBeyond;
+  near_.assign(states_.size(), static_cast<float>(reach));
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;  // cell, edge
+  const Point2d centre = cellCentre(0, 0);
+  const auto firstFrom = [&](double value, double corner) {
+    return std::max(0L, static_cast<long>(std::ceil((value - corner) / cell_size_)));
+  };
+  const auto lastTo = [&](double value, double corner, long count) {
+    return std::min(count - 1, static_cast<long>(std::floor((value - corner) / cell_size_)));
+  };
+  for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+    const HalfEdge& edge = edges_[e];
+    const double wide = std::abs(edge.hx) + reach, high = std::abs(edge.hy) + reach;
+    const double half_squared = std::max(edge.hx * edge.hx + edge.hy * edge.hy, 1e-18);
+    const long last_row = lastTo(edge.my + high, centre.y(), rows_);
+    const long first_column = firstFrom(edge.mx - wide, centre.x());
+    const long last_column = lastTo(edge.mx + wide, centre.x(), columns_);
+    for (long row = firstFrom(edge.my - high, centre.y()); row <= last_row; ++row) {
+      const double dy = centre.y() + static_cast<double>(row) * cell_size_ - edge.my;
+      for (long column = first_column; column <= last_column; ++column) {
+        const double dx = centre.x() + static_cast<double>(column) * cell_size_ - edge.mx;
+        const double t = std::clamp((dx * edge.hx + dy * edge.hy) / half_squared, -1.0, 1.0);
+        const double distance_squared = squared(dx - t * edge.hx) + squared(dy - t * edge.hy);
+        if (distance_squared > reach * reach) continue;
+        const auto cell = static_cast<std::uint32_t>(row * columns_ + column);
+        near_[cell] = std::min(near_[cell], static_cast<float>(std::sqrt(distance_squared)));
+        pairs.emplace_back(cell, e);
+      }
+    }
+  }
+  starts_.assign(states_.size() + 1, 0);
+  for (const auto& pair : pairs) ++starts_[pair.first + 1];
+  for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
+  listed_.resize(pairs.size());
+  std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
+  for (const auto& pair : pairs) listed_[next[pair.first]++] = pair.second;
+}
+
+/// Beyond the reach of the lists, bounds `near_` from below by a chamfer distance transform from the cells that hold an
+/// edge: steps of 1 and sqrt(2) overestimate the straight distance by at most 1 / kChamfer.
+void FootprintIndex::extendNear() {
+  constexpr double kChamfer = 0.92;
+  std::vector<float> steps(near_.size());
+  for (std::size_t i = 0; i < near_.size(); ++i) steps[i] = near_[i] <= cell_reach_ ? 0.0F : 1e6F;
+  const auto lower = [&](long column, long row, long dc, long dr) {
+    const long c = column + dc, r = row + dr;
+    if (c < 0 || r < 0 || c >= columns_ || r >= rows_) return;
+    float& here = steps[static_cast<std::size_t>(row * columns_ + column)];
+    const float cost = dc != 0 && dr != 0 ? 1.41421356F : 1.0F;
+    here = std::min(here, steps[static_cast<std::size_t>(r * columns_ + c)] + cost);
+  };
+  for (long row = 0; row < rows_; ++row) {
+    for (long column = 0; column < columns_; ++column) {
+      for (const long dc : {-1L, 0L, 1L}) lower(column, row, dc, -1);
+      lower(column, row, -1, 0);
+    }
+  }
+  for (long row = rows_ - 1; row >= 0; --row) {
+    for (long column = columns_ - 1; column >= 0; --column) {
+      for (const long dc : {-1L, 0L, 1L}) lower(column, row, dc, 1);
+      lower(column, row, 1, 0);
+    }
+  }
+  for (long row = 0; row < rows_; ++row) {
+    for (long column = 0; column < columns_; ++column) {
+      const auto i = static_cast<std::size_t>(row * columns_ + column);
+      // Edges beyond the cells, left out because of the axle bounds, are not among the seeds.
+      const long to_border = std::min({row, rows_ - 1 - row, column, columns_ - 1 - column});
+      const double known = std::min(static_cast<double>(steps[i]) * kChamfer, static_cast<double>(to_border));
+      near_[i] = std::max(near_[i], static_cast<float>(known * cell_size_ - cell_reach_));
+    }
+  }
+}
+
+bool FootprintIndex::isWithinAxleBounds(double x, double y) const {
+  return x >= axle_bounds_.min.x() && x <= axle_bounds_.max.x() && y >= axle_bounds_.min.y() &&
+         y <= axle_bounds_.max.y();
+}
+
+double FootprintIndex::freeRadius(const Frame& frame) const {
+  if (!isWithinAxleBounds(frame.x, frame.y)) return -1.0;
+  const double cx = frame.x + box_.centre * frame.cos, cy = frame.y + box_.centre * frame.sin;
+  const long cell = cellAt(cx, cy);
+  if (cell < 0) return outside_is_free_ ? 0.0 : -1.0;
+  const auto at = static_cast<std::size_t>(cell);
+  const double room = static_cast<double>(near_[at]) - cell_reach_ - reach_;
+  if (room > 0.0) return states_[at] == State::kFree ? room : -1.0;
+  if (!edgesAreClear(cell, frame, cx, cy)) return -1.0;
+  // No edge meets the footprint, so one point of it tells whether it is inside an obstacle. The cell's state holds for
+  // all of the cell unless an edge passes through it.
+  if (static_cast<double>(near_[at]) > cell_reach_) return states_[at] == State::kFree ? 0.0 : -1.0;
+  return obstacles_.filledBy(Point2d(cx, cy)) ? -1.0 : 0.0;
+}
+
+bool FootprintIndex::edgesAreClear(long cell, const Frame& frame, double cx, double cy) const {
+  const double l = box_.half_length + margin_, w = box_.half_width + margin_;
+  const std::uint32_t* end = listed_.data() + starts_[static_cast<std::size_t>(cell) + 1];
+  for (const std::uint32_t* i = listed_.data() + starts_[static_cast<std::size_t>(cell)]; i != end; ++i) {
+    const HalfEdge& edge = edges_[*i];
+    const double dx = edge.mx - cx, dy = edge.my - cy;
+    const double mu = dx * frame.cos + dy * frame.sin, mv = dy * frame.cos - dx * frame.sin;
+    const double hu = edge.hx * frame.cos + edge.hy * frame.sin, hv = edge.hy * frame.cos - edge.hx * frame.sin;
+    // separating axes of box and edge
+    if (std::abs(mu) > l + std::abs(hu) || std::abs(mv) > w + std::abs(hv)) continue;
+    if (std::abs(mu * hv - mv * hu) > l * std::abs(hv) + w * std::abs(hu)) continue;
+    // Near a corner of the grown box the distance may still be kept.
+    if (isTooNear(exactDistance(edge, frame, cx, cy))) return false;
+  }
+  return true;
+}
+
+double FootprintIndex::exactDistance(const HalfEdge& edge, const Frame& frame, double cx, double cy) const {
+  const double l = box_.half_length, w = box_.half_width;
+  const double dx = edge.mx - cx, dy = edge.my - cy;
+  const double mu = dx * frame.cos + dy * frame.sin, mv = dy * frame.cos - dx * frame.sin;
+  const double hu = edge.hx * frame.cos + edge.hy * frame.sin, hv = edge.hy * frame.cos - edge.hx * frame.sin;
+  if (std::abs(mu) <= l + std::abs(hu) && std::abs(mv) <= w + std::abs(hv) &&
+      std::abs(mu * hv - mv * hu) <= l * std::abs(hv) + w * std::abs(hu)) {
+    return 0.0;
+  }
+  double best = std::min(pointToBox(mu - hu, mv - hv, l, w), pointToBox(mu + hu, mv + hv, l, w));
+  const double half_squared = std::max(hu * hu + hv * hv, 1e-18);
+  for (int corner = 0; corner < 4; ++corner) {
+    const double u = (corner & 1 ? l : -l) - mu, v = (corner & 2 ? w : -w) - mv;
+    const double t = std::clamp((u * hu + v * hv) / half_squared, -1.0, 1.0);
+    best = std::min(best, squared(u - t * hu) + squared(v - t * hv));
+  }
+  return std::sqrt(best);
+}
+
+double FootprintIndex::freeLength(const Pose2d& from, const ArcSegment& arc, double step) const {
+  const double length = std::abs(arc.length), sign = arc.length < 0.0 ? -1.0 : 1.0;
+  const double corner_speed = box_.cornerSpeed(arc.kappa);
+  const double steps = std::ceil(length * corner_speed / step);
+  const double stride = length / std::max(steps, 1.0);
+  Frame frame(from);
+  double room = 0.0;
+  double skipped_stride = -1.0, forward = 0.0, left = 0.0, turn_cos = 1.0, turn_sin = 0.0;
+  for (double done = 0.0; done < steps;) {
+    const double skip = std::min(1.0 + std::floor(room / (corner_speed * stride)), steps - done);
+    if (skip != skipped_stride) {
+      skipped_stride = skip;
+      const double turn = arc.kappa * sign * skip * stride, half = 0.5 * turn;
+      const double chord = sign * skip * stride * (std::abs(half) < 1e-6 ? 1.0 : std::sin(half) / half);
+      forward = chord * std::cos(half), left = chord * std::sin(half);
+      turn_cos = std::cos(turn), turn_sin = std::sin(turn);
+    }
+    frame.move(forward, left, turn_cos, turn_sin);
+    room = freeRadius(frame);
+    if (room < 0.0) return done * stride;
+    done += skip;
+  }
+  return length;
+}
+
+/// As freeRadius(), but exact up to kBeyond.
+double FootprintIndex::exactRoom(const Frame& frame) const {
+  const double bound = freeRadius(frame);
+  if (bound != 0.0) return bound;
+  const double cx = frame.x + box_.centre * frame.cos, cy = frame.y + box_.centre * frame.sin;
+  const long cell = cellAt(cx, cy);
+  double distance = margin_ + kBeyond;
+  if (cell < 0) return 0.0;
+  const std::uint32_t* end = listed_.data() + starts_[static_cast<std::size_t>(cell) + 1];
+  for (const std::uint32_t* i = listed_.data() + starts_[static_cast<std::size_t>(cell)]; i != end; ++i) {
+    distance = std::min(distance, exactDistance(edges_[*i], frame, cx, cy));
+  }
+  return distance - margin_;
+}
+
+bool FootprintIndex::keepsMargin(const Pose2d& from, const ArcSegment& arc) const {
+  const double length = std::abs(arc.length), corner_speed = box_.cornerSpeed(arc.kappa);
+  double room = 0.0;
+  for (double s = 0.0; s < length;) {
+    s = std::min(s + std::max(room, kFineStep) / corner_speed, length);
+    room = exactRoom(Frame(advance(from, arc, s)));
+    if (room < 0.0) return false;
+  }
+  return true;
+}
+
+double FootprintIndex::distanceTo(const ObstacleEdge& edge, const Frame& frame) const {
+  const Point2d middle = 0.5 * (edge.begin + edge.end), half = 0.5 * (edge.end - edge.begin);
+  return exactDistance({middle.x(), middle.y(), half.x(), half.y()}, frame, frame.x + box_.centre * frame.cos,
+                       frame.y + box_.centre * frame.sin);
+}
+
+double FootprintIndex::clearance(const Frame& frame, double limit) const {
+  const double cx = frame.x + box_.centre * frame.cos, cy = frame.y + box_.centre * frame.sin;
+  const double circumradius = box_.circumradius();
+  double best = limit;
+  for (const HalfEdge& edge : edges_) {
+    // cheap lower bound first: circle around the footprint, box around the edge
+    const double dx = std::max(std::abs(edge.mx - cx) - std::abs(edge.hx), 0.0);
+    const double dy = std::max(std::abs(edge.my - cy) - std::abs(edge.hy), 0.0);
+    if (dx * dx + dy * dy > squared(best + circumradius)) continue;
+    best = std::min(best, exactDistance(edge, frame, cx, cy));
+    if (best <= 0.0) return 0.0;
+  }
+  return obstacles_.filledBy(Point2d(cx, cy)) ? 0.0 : best;
+}
+
+bool FootprintIndex::axleMayBeWithin(double x, double y, double radius) const {
+  if (x < axle_bounds_.min.x() - radius || x > axle_bounds_.max.x() + radius) return false;
+  if (y < axle_bounds_.min.y() - radius || y > axle_bounds_.max.y() + radius) return false;
+  const long cell = cellAt(x, y);
+  if (cell < 0) return outside_is_free_;
+  const auto at = static_cast<std::size_t>(cell);
+  const double slack = radius + (cellCentre(cell % columns_, cell / columns_) - Point2d(x, y)).norm();
+  // Every footprint contains this disc around its axle centre.
+  const double disc = std::min(box_.half_width, box_.half_length - std::abs(box_.centre)) + margin_;
+  return states_[at] == State::kFree ? near_[at] + slack >= disc : near_[at] <= slack;
+}
+
+Point2d FootprintIndex::snapped(const Point2d& point) const {
+  if (columns_ == 0) return point;
+  const Point2d corner = extent_.min - Point2d(reach_, reach_);
+  return corner + cell_size_ * ((point - corner) / cell_size_).array().floor().matrix();
+}
+
+}  // namespace external_command

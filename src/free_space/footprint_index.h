@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "external_command/core/vehicle.h"
+#include "external_command/free_space/reeds_shepp.h"
+#include "obstacle_edges.h"
+
+namespace external_command {
+
+/// A pose with its heading as a unit vector, for loops that step along an arc.
+struct Frame {
+  double x, y, cos, sin;
+
+  explicit Frame(const Pose2d& pose)
+      : x(pose.x), y(pose.y), cos(std::cos(pose.heading)), sin(std::sin(pose.heading)) {}
+
+  /// Moves by (forward, left) and turns by the angle whose cosine and sine are given.
+  void move(double forward, double left, double turn_cos, double turn_sin) {
+    x += cos * forward - sin * left;
+    y += sin * forward + cos * left;
+    const double c = cos * turn_cos - sin * turn_sin;
+    sin = sin * turn_cos + cos * turn_sin;
+    cos = c;
+  }
+};
+
+/// The vehicle's rectangle seen from its centre.
+struct FootprintBox {
+  explicit FootprintBox(const VehicleParams& vehicle)
+      : centre((vehicle.wheelbase + vehicle.front_overhang - vehicle.rear_overhang) / 2.0),
+        half_length(vehicle.length() / 2.0),
+        half_width(vehicle.width / 2.0) {}
+
+  double circumradius() const { return std::hypot(half_length, half_width); }
+
+  /// Most that any corner moves [m] for a metre driven at curvature `kappa`.
+  double cornerSpeed(double kappa) const {
+    return std::hypot(1.0 + std::abs(kappa) * half_width, kappa * (std::abs(centre) + half_length));
+  }
+
+  double centre;  ///< ahead of the rear axle [m]
+  double half_length;
+  double half_width;
+};
+
+/// Decides whether the footprint is free of obstacles, in the local frame. Edges lie in the cells of a coarse grid from
+/// which the footprint could reach them, and each cell knows its distance to the nearest edge: far from all edges one
+/// look-up answers, near them the few edges of the cell are tested exactly. Immutable and thread-safe.
+class FootprintIndex {
+ public:
+  FootprintIndex(const VehicleParams& vehicle, double margin, const Region& region, const Point2d& origin);
+
+  const LocalObstacles& obstacles() const { return obstacles_; }
+  const FootprintBox& box() const { return box_; }
+  double margin() const { return margin_; }
+
+  /// Negative where the footprint comes nearer than the margin to an obstacle or leaves the axle bounds. Else a lower
+  /// bound of how far every corner can move before it does [m]; often 0.
+  double freeRadius(const Frame& frame) const;
+
+  bool isFree(const Pose2d& pose) const { return freeRadius(Frame(pose)) >= 0.0; }
+
+  /// How far [m] `arc` can be driven from `from` with every checked pose free; the whole length if nothing is in the
+  /// way. Between two checks no corner moves more than `step` [m]. `from` itself is not checked.
+  double freeLength(const Pose2d& from, const ArcSegment& arc, double step) const;
+
+  /// Whether all of `arc` keeps the margin, nowhere missing more than a millimetre of it: each step is as long as the
+  /// distance to the obstacles allows. `from` itself is not checked.
+  bool keepsMargin(const Pose2d& from, const ArcSegment& arc) const;
+
+  /// Distance [m] from the bare footprint to the nearest edge or filled point, at most `limit`.
+  double clearance(const Frame& frame, double limit) const;
+
+  /// Whether a distance between footprint and obstacle breaks the margin, but for rounding. Touching always does.
+  bool isTooNear(double distance) const { return distance <= 0.0 || distance < margin_ - 1e-9; }
+
+  /// Distance [m] from the bare footprint to `edge`; 0 where they meet.
+  double distanceTo(const ObstacleEdge& edge, const Frame& frame) const;
+
+  const BoundingBox& axleBounds() const { return axle_bounds_; }
+  bool isWithinAxleBounds(double x, double y) const;
+
+  /// False only where no free footprint has its rear-axle centre within `radius` [m] of the point.
+  bool axleMayBeWithin(double x, double y, double radius) const;
+
+  /// Side of a cell [m], and the corner of the cell that holds `point`: maps made of the same cells get the sharpest
+  /// answers.
+  double cellSize() const { return cell_size_; }
+  Point2d snapped(const Point2d& point) const;
+
+  /// Box around everything that matters: edges, cut to the axle bounds. Empty (min > max) without either.
+  const BoundingBox& extent() const { return extent_; }
+
+ private:
+  enum class State : std::uint8_t { kFree, kFilled };
+
+  /// An edge as middle and half, which is what the separating axes need.
+  struct HalfEdge {
+    double mx, my, hx, hy;
+  };
+
+  void setExtent();
+  void fillStates();
+  void fillPolygon(const Polygon& polygon, bool inside);
+  void spreadEdges();
+  void extendNear();
+  long cellAt(double x, double y) const;
+  Point2d cellCentre(long column, long row) const;
+  bool edgesAreClear(long cell, const Frame& frame, double cx, double cy) const;
+  double exactRoom(const Frame& frame) const;
+  double exactDistance(const HalfEdge& edge, const Frame& frame, double cx, double cy) const;
+
+  LocalObstacles obstacles_;
+  FootprintBox box_;
+  double margin_;
+  double reach_;         ///< edges farther from the footprint's centre cannot break the margin [m]
+  BoundingBox extent_;
+  BoundingBox axle_bounds_;
+  bool outside_is_free_;
+  double cell_size_ = 0.5;
+  double cell_reach_ = 0.0;  ///< half the diagonal of a cell [m]
+  long columns_ = 0;
+  long rows_ = 0;
+  std::vector<HalfEdge> edges_;
+  std::vector<State> states_;          ///< at the centre of each cell
+  std::vector<float> near_;            ///< at most the distance from each cell's centre to the nearest edge [m]
+  std::vector<std::uint32_t> starts_;  ///< of each cell's part of `listed_`
+  std::vector<std::uint32_t> listed_;  ///< edges by cell
+};
+
+}  // namespace external_command

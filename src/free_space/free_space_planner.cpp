@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "external_command/free_space/free_space_planner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <future>
+#include <optional>
+
+#include "anytime_improver.h"
+#include "collision_probe.h"
+#include "external_command/core/error.h"
+#include "external_command/core/text.h"
+#include "first_path.h"
+#include "last_check.h"
+
+namespace external_command {
+
+namespace {
+
+constexpr double kMaxDistance = 10'000.0;        ///< between start and goals [m]
+constexpr std::size_t kFirstPatience = 150;      ///< trials that make a first path out of what the search found
+constexpr std::size_t kFirstRound = 2000;        ///< search steps for each approach while there are several
+constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
+
+/// One way to end at a goal: drive to `query.goal`, then along `tail`.
+struct Approach {
+  std::size_t goal_index;
+  Query query;
+  Arcs tail;
+};
+
+struct Solution {
+  const Approach* approach = nullptr;
+  Arcs arcs;  ///< without the tail
+  double cost = std::numeric_limits<double>::infinity();
+};
+
+std::string describe(const std::string& what, const Pose2d& pose, const Collision& collision, double margin) {
+  const bool is_border =
+      collision.kind == Collision::Kind::kDrivableBorder || collision.kind == Collision::Kind::kAxleBounds;
+  return text(what, " ", at(pose), is_border ? " sticks out of " : " overlaps ", collision.obstacle(), " by ",
+              metres(collision.depth), " near ", at(collision.at), ", the margin of ", metres(margin), " included");
+}
+
+/// One call of plan(): everything in the frame around the start.
+class Planning {
+ public:
+  Planning(const VehicleParams& vehicle, const FreeSpaceParams& params, const Pose2d& start,
+           const std::vector<Pose2d>& goals, const Region& region, const CancelToken& cancel)
+      : begin_(Clock::now()),
+        vehicle_(vehicle),
+        params_(params),
+        origin_(start.position()),
+        start_(local(start)),
+        stop_(cancel, after(begin_, params.time_budget)),
+        index_(vehicle, params.margin, region, origin_),
+        scene_{index_, vehicle.min_turning_radius, {params.gear_change_cost, 1.0, params.reverse_factor}} {
+    if (const auto collision = probeCollision(index_, start_)) {
+      throw StartBlocked(describe("start", start, *collision, params.margin));
+    }
+    addApproaches(goals);
+  }
+
+  FreeSpaceResult run() {
+    Solution best = firstSolution();
+    FreeSpaceResult result = finish(best);
+    result.first_path_time = secondsSince(begin_);
+    result.first_path_cost = result.cost;
+    if (params_.planner == "portfolio" && params_.improve_budget > 0.0) {
+      const Solution better = improved(best);
+      if (better.cost < best.cost) replace(&result, better);
+    }
+    toMapFrame(&result.path);
+    result.planner = params_.planner;
+    result.planning_time = secondsSince(begin_);
+    return result;
+  }
+
+ private:
+  Pose2d local(const Pose2d& pose) const { return {pose.x - origin_.x(), pose.y - origin_.y(), pose.heading}; }
+
+  void addApproaches(const std::vector<Pose2d>& goals) {
+    std::string blocked;
+    for (std::size_t i = 0; i < goals.size(); ++i) {
+      const Pose2d goal = local(goals[i]);
+      if (const auto collision = probeCollision(index_, goal)) {
+        const std::string name = goals.size() > 1 ? text("goal ", i) : "goal";
+        blocked += (blocked.empty() ? "" : "; ") + describe(name, goals[i], *collision, params_.margin);
+        continue;
+      }
+      if (params_.straight_last <= 0.0) {
+        approaches_.push_back({i, {start_, goal, 0}, {}});
+        continue;
+      }
+      for (const int gear : {1, -1}) addStraightApproach(i, goal, gear, &blocked);
+    }
+    if (approaches_.empty()) throw GoalBlocked(blocked);
+  }
+
+  void addStraightApproach(std::size_t goal_index, const Pose2d& goal, int gear, std::string* blocked) {
+    const ArcSegment tail{gear * params_.straight_last, 0.0};
+    const ArcSegment back{-tail.length, 0.0};
+    if (index_.keepsMargin(goal, back)) {
+      approaches_.push_back({goal_index, {start_, advance(goal, back), gear}, {tail}});
+      return;
+    }
+    *blocked += text(blocked->empty() ? "" : "; ", "goal ", goal_index, " has no straight free ",
+                     metres(params_.straight_last), gear > 0 ? " behind it" : " ahead of it", " (straight_last)");
+  }
+
+  /// What the search covers: all obstacles and room to turn around them.
+  BoundingBox areaOf(const Query& query) const {
+    BoundingBox box{query.start.position().cwiseMin(query.goal.position()),
+                    query.start.position().cwiseMax(query.goal.position())};
+    if (index_.extent().min.x() <= index_.extent().max.x()) {
+      box.min = box.min.cwiseMin(index_.extent().min);
+      box.max = box.max.cwiseMax(index_.extent().max);
+    }
+    const double room = 4.0 * scene_.radius + vehicle_.length();
+    box.min = (box.min - Point2d(room, room)).cwiseMax(index_.axleBounds().min);
+    box.max = (box.max + Point2d(room, room)).cwiseMin(index_.axleBounds().max);
+    return box;
+  }
+
+  /// The cheapest of the approaches' first paths. With several of them, none may use up the time alone: each is tried
+  /// with few steps first, then with more.
+  Solution firstSolution() {
+    Solution best;
+    std::size_t steps = approaches_.size() > 1 ? kFirstRound : params_.max_iterations;
+    while (true) {
+      bool all_hopeless = true;
+      for (const Approach& approach : approaches_) {
+        const FirstPath found = findFirstPath(scene_, approach.query, areaOf(approach.query),
+                                              {params_.planner, steps, params_.seed}, stop_);
+        stop_.cancel().throwIfCancelled();
+        all_hopeless = all_hopeless && found.outcome == TwoWaySearch::Outcome::kNone;
+        if (found.outcome == TwoWaySearch::Outcome::kFound) consider(approach, found.arcs, &best);
+      }
+      if (best.approach != nullptr) return best;
+      if (all_hopeless) throw NoPath(whyNone("there is none, searched in steps of a centimetre or two"));
+      if (stop_.isReached()) {
+        throw PlanningTimeout(whyNone(text("none was found within ", params_.time_budget, " s (time_budget)")));
+      }
+      if (steps >= params_.max_iterations) {
+        throw NoPath(whyNone(text("none was found in ", params_.max_iterations, " steps (max_iterations)")));
+      }
+      steps = std::min<std::size_t>(4 * steps, params_.max_iterations);
+    }
+  }
+
+  std::string whyNone(const std::string& why) const {
+    return text("no path from ", at(Pose2d{origin_.x(), origin_.y(), start_.heading}), " to any of ",
+                approaches_.size(), " approaches of the goal: ", why);
+  }
+
+  void consider(const Approach& approach, const Arcs& arcs, Solution* best) const {
+    Arcs better = arcs;
+    if (params_.planner == "portfolio") {
+      WorkBudget budget(kUnlimited, stop_);
+      better = PathImprover(scene_, approach.query, params_.seed).improve(arcs, kFirstPatience, &budget);
+    }
+    const double cost = costOf(better, scene_.cost, approach.query.gear_after);
+    if (cost < best->cost) *best = {&approach, better, cost};
+  }
+
+  /// Improves side by side with different seeds and takes the cheapest.
+  Solution improved(const Solution& first) const {
+    const Query& query = first.approach->query;
+    const StopCondition stop = stop_.within(params_.improve_budget);
+    const auto improve = [&](unsigned thread) {
+      WorkBudget budget(params_.improve_iterations > 0 ? params_.improve_iterations : kUnlimited, stop);
+      return AnytimeImprover(scene_, query, areaOf(query), params_.seed + 7919 * thread).improve(first.arcs, &budget);
+    };
+    std::vector<std::future<Arcs>> others;
+    for (unsigned i = 1; i < params_.threads; ++i) others.push_back(std::async(std::launch::async, improve, i));
+    Solution best{first.approach, improve(0), 0.0};
+    best.cost = costOf(best.arcs, scene_.cost, query.gear_after);
+    for (std::future<Arcs>& other : others) {
+      const Arcs arcs = other.get();
+      const double cost = costOf(arcs, scene_.cost, query.gear_after);
+      if (cost < best.cost) best.arcs = arcs, best.cost = cost;
+    }
+    stop_.cancel().throwIfCancelled();
+    return best;
+  }
+
+  /// The solution as a path in the local frame, checked.
+  /// @throws NoPath  it fails the last check.
+  FreeSpaceResult finish(const Solution& solution) const {
+    Arcs arcs = solution.arcs;
+    const Arcs& tail = solution.approach->tail;
+    arcs.insert(arcs.end(), tail.begin(), tail.end());
+    arcs = merged(arcs);
+    FreeSpaceResult result;
+    result.path = sampleArcs(start_, arcs, params_.spacing);
+    const Pose2d goal = goalOf(*solution.approach);
+    const PathDemands demands{start_, goal, vehicle_.maxKappa(), params_.spacing};
+    const LastCheck check = checkPath(result.path, demands, index_);
+    if (check.fault) throw NoPath(text("the path found failed its last check: ", *check.fault));
+    result.goal_index = solution.approach->goal_index;
+    result.cost = costOf(arcs, scene_.cost);
+    result.length = lengthOf(arcs);
+    result.gear_changes = gearChangesOf(arcs);
+    result.min_clearance = check.min_clearance;
+    result.reverse_length = reverseLength(result.path);
+    return result;
+  }
+
+  Pose2d goalOf(const Approach& approach) const { return endOf(approach.query.goal, approach.tail); }
+
+  /// Takes the better solution, unless it fails the last check: then the first path stays.
+  void replace(FreeSpaceResult* result, const Solution& better) const {
+    try {
+      FreeSpaceResult finished = finish(better);
+      finished.first_path_time = result->first_path_time;
+      finished.first_path_cost = result->first_path_cost;
+      *result = std::move(finished);
+    } catch (const NoPath&) {
+    }
+  }
+
+  void toMapFrame(Path* path) const {
+    for (ReferencePoint& point : *path) {
+      point.x += origin_.x();
+      point.y += origin_.y();
+      point.speed = vehicle_.max_speed;
+    }
+    limitSpeeds(vehicle_, path);
+  }
+
+  Clock::time_point begin_;
+  const VehicleParams& vehicle_;
+  const FreeSpaceParams& params_;
+  Point2d origin_;
+  Pose2d start_;
+  StopCondition stop_;
+  FootprintIndex index_;
+  Scene scene_;
+  std::vector<Approach> approaches_;
+};
+
+void requireUsable(const Pose2d& start, const std::vector<Pose2d>& goals) {
+  if (!start.isFinite()) throw InvalidRequest("start is not finite");
+  if (goals.empty()) throw InvalidRequest("there is no goal; give at least one");
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    if (!goals[i].isFinite()) throw InvalidRequest(text("goal ", i, " is not finite"));
+    const double distance = (goals[i].position() - start.position()).norm();
+    if (distance > kMaxDistance) {
+      throw InvalidRequest(text("goal ", i, " ", at(goals[i]), " is ", metres(distance), " from the start ", at(start),
+                                "; the limit is ", metres(kMaxDistance)));
+    }
+  }
+}
+
+}  // namespace
+
+FreeSpacePlanner::FreeSpacePlanner(const VehicleParams& vehicle, const FreeSpaceParams& params)
+    : vehicle_(vehicle), params_(params) {
+  vehicle_.validate();
+  params_.validate();
+}
+
+FreeSpaceResult FreeSpacePlanner::plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region,
+                                       const CancelToken& cancel) const {
+  requireUsable(start, goals);
+  cancel.throwIfCancelled();
+  return Planning(vehicle_, params_, start, goals, region, cancel).run();
+}
+
+}  // namespace external_command

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "track.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace external_command {
+
+Track::Track(const Query& query, const Arcs& arcs, const CostModel& cost)
+    : cost_model_(cost), arcs_(arcs), gear_after_(query.gear_after), total_cost_(costOf(arcs, cost, query.gear_after)) {
+  Pose2d pose = query.start;
+  double s = 0.0, so_far = 0.0;
+  for (std::size_t i = 0; i < arcs_.size(); ++i) {
+    if (i > 0 && gearOf(arcs_[i]) != gearOf(arcs_[i - 1])) so_far += cost.gear_change_cost;
+    begins_.push_back(pose);
+    s_.push_back(s);
+    costs_.push_back(so_far);
+    pose = advance(pose, arcs_[i]);
+    s += std::abs(arcs_[i].length);
+    so_far += cost.ofArc(arcs_[i].length);
+  }
+  s_.push_back(s);
+}
+
+std::size_t Track::arcAt(double s) const {
+  const auto next = std::upper_bound(s_.begin(), s_.end() - 1, s);
+  return next == s_.begin() ? 0 : static_cast<std::size_t>(next - s_.begin()) - 1;
+}
+
+Track::Place Track::placeAt(std::size_t arc, double s) const {
+  const ArcSegment& here = arcs_[arc];
+  const double driven = std::clamp(s - s_[arc], 0.0, std::abs(here.length));
+  const double cost = costs_[arc] + cost_model_.ofArc(std::copysign(driven, here.length));
+  return {advance(begins_[arc], here, driven), gearOf(here), cost, arc, s_[arc] + driven};
+}
+
+Track::Place Track::arriving(double s) const {
+  if (s <= 0.0) return {begins_[0], 0, 0.0, 0, 0.0};
+  const std::size_t arc = arcAt(s);
+  return placeAt(arc > 0 && s <= s_[arc] ? arc - 1 : arc, s);
+}
+
+Track::Place Track::leaving(double s) const {
+  Place place = placeAt(arcAt(s), s);
+  if (s >= length()) place.gear = gear_after_, place.cost = total_cost_;
+  return place;
+}
+
+Arcs Track::spliced(const Place& from, const Arcs& middle, const Place& to) const {
+  Arcs result(arcs_.begin(), arcs_.begin() + static_cast<std::ptrdiff_t>(from.arc));
+  const ArcSegment &first = arcs_[from.arc], &last = arcs_[to.arc];
+  result.push_back({std::copysign(from.s - s_[from.arc], first.length), first.kappa});
+  result.insert(result.end(), middle.begin(), middle.end());
+  result.push_back({std::copysign(s_[to.arc + 1] - to.s, last.length), last.kappa});
+  result.insert(result.end(), arcs_.begin() + static_cast<std::ptrdiff_t>(to.arc) + 1, arcs_.end());
+  return merged(result);
+}
+
+}  // namespace external_command
