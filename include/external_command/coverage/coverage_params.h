@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+namespace external_command {
+
+/// What the order of the swaths is chosen for.
+enum class CoverageObjective {
+  kShortest,     ///< least distance driven
+  kFewestTurns,  ///< least turns, then least gear changes, then least distance
+};
+
+/// How an area is swept.
+struct CoverageParams {
+  double swath_width = 2.0;  ///< of the tool, centred on the rear axle, [0.1, 100] [m]
+  double overlap = 0.0;      ///< of neighbouring swaths, [0, swath_width / 2] [m]
+  double margin = 0.03;      ///< the footprint keeps this distance to the border and the holes, [0, 5] [m]
+
+  int headland_laps = -1;               ///< laps along border and holes, [0, 50]; -1: as many as serve the objective
+  bool headland_first = true;           ///< the laps along the outer border come before the swaths, not after them
+  std::optional<double> swath_heading;  ///< of the straight swaths [rad]; not given: chosen for the objective
+  CoverageObjective objective = CoverageObjective::kShortest;
+
+  double target_coverage = 0.993;  ///< of the reachable area; beyond it, only what costs little is swept, [0.5, 1]
+  double gear_change_cost = 0.5;   ///< price of a gear change, as length, not negative [m]
+  double spacing = 1.0;            ///< between points of the path, at most, [0.05, 100] [m]
+  double time_budget = 3.0;        ///< past half of it no further variant is tried, past all of it the plan is given up,
+                                   ///< (0, 3600] [s]
+  unsigned seed = 1;               ///< same area, start, parameters and seed: same plan, if the clock does not cut in
+
+  /// @throws InvalidParameter  a value is out of range: the text names key, value and range.
+  void validate() const;
+};
+
+}  // namespace external_command

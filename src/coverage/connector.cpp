@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "connector.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "external_command/core/error.h"
+#include "external_command/free_space/free_space_planner.h"
+
+namespace external_command {
+
+namespace {
+
+/// How far before or beyond its ends a turn may begin and end, in turning radii: straight on, or backing up.
+constexpr std::array<double, 11> kShifts = {0.0, 0.3, -0.3, 0.6, -0.6, 1.0, -1.0, 1.6, -1.6, 2.5, -2.5};
+constexpr double kLongest = 4.0;  ///< how much longer than the shortest a turn may be, in turning radii
+constexpr std::size_t kMostTried = 600;
+
+struct Candidate {
+  double cost = 0.0;
+  double before = 0.0;  ///< driven straight on first [m]
+  double after = 0.0;   ///< driven straight on last [m]
+  std::vector<ArcSegment> arcs;
+};
+
+Pose2d straightOn(const Pose2d& pose, double length) { return advance(pose, ArcSegment{length, 0.0}); }
+
+Curve curveOf(const Pose2d& from, const Candidate& candidate) {
+  Curve curve{from, {}};
+  curve.append({candidate.before, 0.0});
+  curve.append(candidate.arcs);
+  curve.append({candidate.after, 0.0});
+  return curve;
+}
+
+/// Changes of gear on the way, arriving and leaving forward.
+unsigned gearChangesOf(const Curve& curve) {
+  if (curve.arcs.empty()) return 0;
+  return curve.gearChanges() + (curve.arcs.front().length < 0.0) + (curve.arcs.back().length < 0.0);
+}
+
+}  // namespace
+
+std::optional<Curve> Connector::connect(const Pose2d& from, const Pose2d& to) const {
+  field_.cancel().throwIfCancelled();
+  if (auto curve = shortTurn(from, to)) return curve;
+  if (auto curve = shiftedTurn(from, to)) return curve;
+  return search(from, to);
+}
+
+std::optional<Curve> Connector::shortTurn(const Pose2d& from, const Pose2d& to) const {
+  const auto curves = reedsSheppCurves(from, to, field_.radius(), field_.params().gear_change_cost);
+  const double most = curves.front().cost + 0.5 * field_.radius();
+  for (const SteeringCurve& steering : curves) {
+    if (steering.cost > most) break;
+    Curve curve{from, {}};
+    curve.append(steering.arcs);
+    if (field_.isFree(curve)) return curve;
+  }
+  return std::nullopt;
+}
+
+std::optional<Curve> Connector::shiftedTurn(const Pose2d& from, const Pose2d& to) const {
+  std::vector<Candidate> candidates;
+  const double price = field_.params().gear_change_cost;
+  const double most = reedsSheppLength(from, to, field_.radius()) + kLongest * field_.radius();
+  for (const double first : kShifts) {
+    const double before = first * field_.radius();
+    const Pose2d begin = straightOn(from, before);
+    if (!field_.isFree(begin)) continue;
+    for (const double last : kShifts) {
+      const double after = last * field_.radius();
+      const Pose2d end = straightOn(to, -after);
+      const double shifted = std::abs(before) + std::abs(after);
+      if (shifted + (end.position() - begin.position()).norm() > most || !field_.isFree(end)) continue;
+      for (SteeringCurve& steering : reedsSheppCurves(begin, end, field_.radius(), price)) {
+        if (steering.cost + shifted > most) break;
+        Candidate candidate{0.0, before, after, std::move(steering.arcs)};
+        const Curve curve = curveOf(from, candidate);
+        candidate.cost = curve.length() + price * gearChangesOf(curve);
+        candidates.push_back(std::move(candidate));
+      }
+    }
+  }
+  const auto cheaper = [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; };
+  std::sort(candidates.begin(), candidates.end(), cheaper);
+  if (candidates.size() > kMostTried) candidates.resize(kMostTried);
+  for (const Candidate& candidate : candidates) {
+    Curve curve = curveOf(from, candidate);
+    if (field_.isFree(curve)) return curve;
+  }
+  return std::nullopt;
+}
+
+std::optional<Curve> Connector::search(const Pose2d& from, const Pose2d& to) const {
+  FreeSpaceParams params;
+  params.planner = "hybrid_astar";
+  params.margin = field_.params().margin;
+  params.time_budget = 0.5;
+  params.improve_budget = 0.0;
+  params.gear_change_cost = field_.params().gear_change_cost;
+  params.spacing = 0.25;
+  try {
+    const FreeSpaceResult result = FreeSpacePlanner(field_.vehicle(), params).plan(from, {to}, field_.region(), field_.cancel());
+    std::fprintf(stderr, "search %.1f m: %.1f m in %.4f s\n", (to.position() - from.position()).norm(), result.length, result.planning_time);
+    Curve curve{from, {}};
+    for (std::size_t i = 1; i < result.path.size(); ++i) {
+      const ReferencePoint& point = result.path[i];
+      const double length = point.s - result.path[i - 1].s;
+      curve.append({point.direction == Direction::kReverse ? -length : length, point.kappa});
+    }
+    return curve;
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error& error) {
+    std::fprintf(stderr, "search %.1f m: %s\n", (to.position() - from.position()).norm(), error.what());
+    return std::nullopt;
+  }
+}
+
+}  // namespace external_command

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "field.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "external_command/core/error.h"
+#include "external_command/core/text.h"
+
+namespace external_command {
+
+namespace {
+
+constexpr double kCheckStep = 0.1;       ///< most that a corner moves between two checks [m]
+constexpr double kMaxCells = 5e6;        ///< of the grid; sets its finest cell
+constexpr double kCellsPerSwath = 16.0;  ///< across
+constexpr double kMaxExtent = 20e3;      ///< of the area [m]
+
+Polygon moved(const Polygon& polygon, const Point2d& origin, const std::string& name) {
+  std::vector<Point2d> points = polygon.points();
+  for (Point2d& point : points) point -= origin;
+  return Polygon(points, name);
+}
+
+Region regionOf(const CoverageArea& area, const Point2d& origin) {
+  Region::Parts parts;
+  parts.drivable = moved(area.outer, origin, "the area");
+  for (std::size_t i = 0; i < area.holes.size(); ++i) {
+    parts.non_drivable.push_back(moved(area.holes[i], origin, text("hole ", i)));
+  }
+  return Region(parts);
+}
+
+Point2d originOf(const CoverageArea& area) {
+  const BoundingBox& box = area.outer.box();
+  const Point2d size = box.max - box.min;
+  if (size.maxCoeff() > kMaxExtent) {
+    throw InvalidRequest(text("the area is ", metres(size.maxCoeff()), " across; at most ", metres(kMaxExtent),
+                              " can be planned: divide it"));
+  }
+  return {std::round(box.min.x()), std::round(box.min.y())};
+}
+
+template <class IsFree>
+bool allFree(const Curve& curve, double reach, const IsFree& isFree) {
+  for (const Pose2d& pose : posesAlong(curve, reach, kCheckStep)) {
+    if (!isFree(pose)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Field::Field(const VehicleParams& vehicle, const CoverageParams& params, const CoverageArea& area,
+             const std::optional<Pose2d>& start, const CancelToken& cancel)
+    : vehicle_(vehicle),
+      params_(params),
+      cancel_(cancel),
+      origin_(originOf(area)),
+      reach_(std::hypot(std::max(vehicle.wheelbase + vehicle.front_overhang, vehicle.rear_overhang),
+                        vehicle.width / 2.0)),
+      region_(regionOf(area, origin_)),
+      checker_(vehicle, params.margin, region_),
+      bare_checker_(vehicle, 0.0, region_) {
+  if (start) start_ = Pose2d{start->x - origin_.x(), start->y - origin_.y(), start->heading};
+  setShapes(area);
+  requireFreeStart();
+  setGoal();
+}
+
+void Field::setShapes(const CoverageArea& area) {
+  free_.push_back(shapeOf(region_.drivable()->points()));
+  for (std::size_t i = 0; i < region_.nonDrivable().size(); ++i) {
+    const shapes::Shapes hole = only(shapeOf(region_.nonDrivable()[i].points()));
+    free_ = difference(free_, hole);
+    if (!free_.empty()) continue;
+    throw InvalidRequest(text("hole ", i, " (", region_.nonDrivable()[i].area(), " m^2) leaves nothing of the area (",
+                              area.outer.area(), " m^2)", i > 0 ? " after those before it" : ""));
+  }
+}
+
+void Field::requireFreeStart() const {
+  if (!start_) return;
+  if (!start_->isFinite()) throw InvalidRequest("the start pose is not finite");
+  const auto collision = bare_checker_.collisionAt(*start_);
+  if (!collision) return;
+  const bool hole = collision->kind == Collision::Kind::kNonDrivable;
+  const Pose2d given{start_->x + origin_.x(), start_->y + origin_.y(), start_->heading};
+  throw StartBlocked(text("at the start ", at(given), " the footprint ",
+                          hole ? text("is in hole ", collision->index) : text("is outside the area"), " by about ",
+                          metres(collision->depth), "; move the vehicle into the area"));
+}
+
+void Field::setGoal() {
+  const double tool = params_.swath_width / 2.0, half = std::max(vehicle_.width / 2.0, tool);
+  const shapes::Shapes core = grown(free_, -half);
+  if (core.empty()) {
+    const BoundingBox& box = region_.drivable()->box();
+    throw InvalidRequest(text("the area is smaller than the vehicle: in its ", metres(box.max.x() - box.min.x()), " x ",
+                              metres(box.max.y() - box.min.y()), " there is no place for a circle of ",
+                              metres(2.0 * half), " (the larger of vehicle width and swath_width)"));
+  }
+  shapes::Shapes part;
+  if (start_) {
+    part = partAt(core, start_->position());
+  } else {
+    const auto smaller = [](const auto& a, const auto& b) {
+      return areaOf(only(a)) < areaOf(only(b));
+    };
+    part = only(*std::max_element(core.begin(), core.end(), smaller));
+  }
+  goal_ = intersection(grown(part, tool), free_);
+  const auto& inside = part.front().outer().front();
+  workable_ = partAt(free_, Point2d(inside.x(), inside.y()));
+}
+
+bool Field::isFree(const Curve& curve) const {
+  return allFree(curve, reach_, [&](const Pose2d& pose) { return checker_.isFree(pose); });
+}
+
+bool Field::isBarelyFree(const Curve& curve) const {
+  return allFree(curve, reach_, [&](const Pose2d& pose) { return bare_checker_.isFree(pose); });
+}
+
+Curve Field::freePart(const Curve& curve, double step) const {
+  const double length = curve.length();
+  const int n = std::max(1, static_cast<int>(std::ceil(length / step)));
+  int begin = -1, longest = 0, longest_begin = 0;
+  for (int i = 0; i <= n + 1; ++i) {
+    const bool free = i <= n && isFree(poseAt(curve, length * i / n));
+    if (free && begin < 0) begin = i;
+    if (free || begin < 0) continue;
+    if (i - 1 - begin > longest) longest = i - 1 - begin, longest_begin = begin;
+    begin = -1;
+  }
+  return partOf(curve, length * longest_begin / n, length * (longest_begin + longest) / n);
+}
+
+CoverageGrid Field::makeGrid() const {
+  const BoundingBox& box = region_.drivable()->box();
+  const Point2d size = box.max - box.min;
+  CoverageGrid grid(box, std::max(width() / kCellsPerSwath, std::sqrt(size.x() * size.y() / kMaxCells)));
+  grid.set(free_, kFree);
+  grid.set(goal_, kGoal);
+  grid.set(grown(free_, -vehicle_.width / 2.0 - params_.margin), kOpen);
+  return grid;
+}
+
+}  // namespace external_command

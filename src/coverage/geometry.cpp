@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry.h"
+
+#include <algorithm>
+#include <boost/geometry.hpp>
+#include <cmath>
+#include <limits>
+
+namespace external_command {
+
+namespace bg = boost::geometry;
+using shapes::Point;
+using shapes::Ring;
+using shapes::Shape;
+using shapes::Shapes;
+
+namespace {
+
+constexpr int kPointsPerCircle = 72;
+constexpr double kSpeck = 1e-3;  // [m^2] smaller pieces are rounding
+constexpr int kAttempts = 4;
+
+Shapes buffered(const Shapes& from, double distance) {
+  namespace strategy = bg::strategy::buffer;
+  Shapes result;
+  bg::buffer(from, result, strategy::distance_symmetric<double>(distance), strategy::side_straight(),
+             strategy::join_round(kPointsPerCircle), strategy::end_round(kPointsPerCircle),
+             strategy::point_circle(kPointsPerCircle));
+  return result;
+}
+
+void dropSpecks(Shapes* of) {
+  for (Shape& shape : *of) {
+    auto& holes = shape.inners();
+    const auto tiny = [](const Ring& ring) { return std::abs(bg::area(ring)) < kSpeck; };
+    holes.erase(std::remove_if(holes.begin(), holes.end(), tiny), holes.end());
+  }
+  const auto tiny = [](const Shape& shape) { return bg::area(shape) < kSpeck; };
+  of->erase(std::remove_if(of->begin(), of->end(), tiny), of->end());
+}
+
+double distanceToRings(const Point& point, const Shapes& of) {
+  double best = std::numeric_limits<double>::infinity();
+  const auto look = [&](const auto& ring) {
+    const bg::model::linestring<Point> line(ring.begin(), ring.end());
+    best = std::min(best, bg::distance(point, line));
+  };
+  for (const Shape& shape : of) {
+    look(shape.outer());
+    for (const auto& hole : shape.inners()) look(hole);
+  }
+  return best;
+}
+
+/// A new border lies `distance` away from the old one, and the area changes by no more than the old and the new
+/// perimeter can account for.
+bool isPlausible(const Shapes& before, const Shapes& after, double distance) {
+  const double width = std::abs(distance), tolerance = 0.02 * width + 1e-3;
+  const double change = (distance > 0.0 ? 1.0 : -1.0) * (bg::area(after) - bg::area(before));
+  const double most = std::max(bg::perimeter(before), bg::perimeter(after)) * width + M_PI * width * width;
+  if (change < -kSpeck || change > 1.05 * most + kSpeck) return false;
+  for (const Shape& shape : after) {
+    const std::size_t stride = std::max<std::size_t>(1, shape.outer().size() / 40);
+    for (std::size_t i = 0; i < shape.outer().size(); i += stride) {
+      if (std::abs(distanceToRings(shape.outer()[i], before) - width) > tolerance) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<Point2d> pointsOf(const Ring& ring) {
+  std::vector<Point2d> points;
+  points.reserve(ring.size());
+  for (std::size_t i = 0; i + 1 < ring.size(); ++i) points.emplace_back(ring[i].x(), ring[i].y());
+  return points;
+}
+
+Shape shapeOf(const std::vector<Point2d>& points) {
+  Shape shape;
+  for (const Point2d& point : points) shape.outer().emplace_back(point.x(), point.y());
+  bg::correct(shape);
+  return shape;
+}
+
+Shapes only(const Shape& shape) {
+  Shapes all;
+  all.push_back(shape);
+  return all;
+}
+
+double areaOf(const Shapes& of) { return bg::area(of); }
+
+double perimeterOf(const Shape& shape) { return bg::perimeter(shape.outer()); }
+
+Shapes difference(const Shapes& from, const Shapes& what) {
+  Shapes result;
+  bg::difference(from, what, result);
+  dropSpecks(&result);
+  return result;
+}
+
+Shapes intersection(const Shapes& a, const Shapes& b) {
+  Shapes result;
+  bg::intersection(a, b, result);
+  dropSpecks(&result);
+  return result;
+}
+
+Shapes grown(const Shapes& of, double distance) {
+  if (distance == 0.0 || of.empty()) return of;
+  Shapes result;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    const double factor = 1.0 + 1e-3 * attempt * (attempt % 2 == 0 ? 1 : -1);
+    result = buffered(of, distance * factor);
+    dropSpecks(&result);
+    if (isPlausible(of, result, distance)) break;
+  }
+  return result;
+}
+
+Shapes inset(const Shapes& area, double border, double holes) {
+  Shapes result;
+  for (const Shape& shape : area) {
+    Shape whole;
+    whole.outer() = shape.outer();
+    Shapes cut;
+    for (const auto& hole : shape.inners()) {
+      Shape one;
+      one.outer().assign(hole.rbegin(), hole.rend());
+      Shapes together;
+      bg::union_(cut, grown(only(one), holes), together);
+      cut = std::move(together);
+    }
+    for (Shape& part : difference(grown(only(whole), -border), cut)) result.push_back(std::move(part));
+  }
+  return result;
+}
+
+Shapes partAt(const Shapes& of, const Point2d& point) {
+  const Point at(point.x(), point.y());
+  Shapes best;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Shape& shape : of) {
+    const double distance = bg::distance(at, shape);
+    if (distance >= nearest) continue;
+    nearest = distance;
+    best = only(shape);
+  }
+  return best;
+}
+
+}  // namespace external_command

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <boost/geometry/core/cs.hpp>
+#include <boost/geometry/geometries/multi_polygon.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/geometries/polygon.hpp>
+#include <boost/geometry/geometries/ring.hpp>
+#include <vector>
+
+#include "external_command/core/pose.h"
+
+namespace external_command {
+
+struct CoverageArea;
+
+/// Shapes with holes, borders counter-clockwise, holes clockwise (what is free lies to the left of every ring), closed.
+/// Only geometry.cpp includes the algorithms of Boost.Geometry, which are slow to compile.
+namespace shapes {
+using Point = boost::geometry::model::d2::point_xy<double>;
+using Ring = boost::geometry::model::ring<Point, false, true>;
+using Shape = boost::geometry::model::polygon<Point, false, true>;
+using Shapes = boost::geometry::model::multi_polygon<Shape>;
+}  // namespace shapes
+
+/// The points of a closed ring, the first not repeated.
+std::vector<Point2d> pointsOf(const shapes::Ring& ring);
+
+/// The shape without holes within `points`, which may be in either order.
+shapes::Shape shapeOf(const std::vector<Point2d>& points);
+
+/// `shape` alone.
+shapes::Shapes only(const shapes::Shape& shape);
+
+double areaOf(const shapes::Shapes& shapes);  ///< [m^2]
+
+double perimeterOf(const shapes::Shape& shape);  ///< of its outer ring [m]
+
+shapes::Shapes difference(const shapes::Shapes& from, const shapes::Shapes& what);
+shapes::Shapes intersection(const shapes::Shapes& a, const shapes::Shapes& b);
+
+/// Grown by `distance` [m] all round, or shrunk where that is negative; round corners. Checked by area and distance,
+/// since some releases of the library lose a part now and then: tried again with a slightly different distance.
+shapes::Shapes grown(const shapes::Shapes& shapes, double distance);
+
+/// The area with its border moved inwards by `border` and its holes grown by `holes` [m], neither negative.
+shapes::Shapes inset(const shapes::Shapes& area, double border, double holes);
+
+/// The one of `shapes` that holds `point` or is nearest to it; empty if there is none.
+shapes::Shapes partAt(const shapes::Shapes& shapes, const Point2d& point);
+
+}  // namespace external_command

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "laps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "corner.h"
+#include "external_command/core/polyline.h"
+#include "ring.h"
+
+namespace external_command {
+
+namespace {
+
+constexpr double kTighter = 0.97;    ///< laps bend a little less than the vehicle can, to leave room for rounding
+constexpr double kMinSide = 0.3;     ///< shorter sides only disturb [m]
+constexpr int kEntries = 12;         ///< places at which a round lap may begin
+constexpr double kPoseStep = 0.2;    ///< [m]
+constexpr double kBlocked = -1e-3;   ///< turn of a corner that is none but for something in the way [rad]
+
+/// A lap along one ring.
+class LapBuilder {
+ public:
+  LapBuilder(const Field& field, double price, CoverageGrid* grid, const Ring& ring)
+      : field_(field), price_(price), grid_(*grid), ring_(ring) {}
+
+  std::vector<Work> build() {
+    if (ring_.bends().empty()) {
+      if (auto round = roundLap()) return {*round};
+    }
+    findSides();
+    findWays();
+    return chain();
+  }
+
+ private:
+  double maxKappa() const { return kTighter * field_.vehicle().maxKappa(); }
+
+  /// The ring bends gently everywhere: driven as it is, from any of several places.
+  std::optional<Work> roundLap() const {
+    Work work;
+    for (int i = 0; i < kEntries; ++i) {
+      const double from = ring_.length() * i / kEntries;
+      const Polyline line(ring_.part(from, from + 1.5 * ring_.length()));
+      const Curve curve = follow(line, 0.0, ring_.length(), maxKappa());
+      for (const Curve& way : {curve, turnedRound(curve)}) {
+        if (field_.isFree(way)) work.ways.push_back(way);
+      }
+    }
+    if (work.ways.empty()) return std::nullopt;
+    return work;
+  }
+
+  /// Cuts the ring at its bends, and each part to where the vehicle is free. A bend that follows another with no side
+  /// between them counts as one with it.
+  void findSides() {
+    const auto& bends = ring_.bends();
+    double turn_before_all = 0.0;
+    for (std::size_t i = 0; i < bends.size(); ++i) {
+      const bool last = i + 1 == bends.size();
+      const Ring::Bend& next = bends[last ? 0 : i + 1];
+      const double from = bends[i].end, to = next.begin + (last ? ring_.length() : 0.0);
+      if (to - from > kMinSide) addSides(lineOf(bends[i], next, from, to));
+      if (sides_.empty()) {
+        turn_before_all += next.turn;
+      } else if (corners_.size() < sides_.size()) {
+        corners_.push_back({ring_.poseAt((next.begin + next.end) / 2.0), next.turn});
+      } else {
+        corners_.back().turn += next.turn;
+      }
+    }
+    if (!corners_.empty()) corners_.back().turn += turn_before_all;
+  }
+
+  /// The side between two bends, prolonged into the corners.
+  Polyline lineOf(const Ring::Bend& bend, const Ring::Bend& next, double from, double to) const {
+    std::vector<Point2d> points = ring_.part(from, to);
+    const Point2d first = (points[1] - points[0]).normalized();
+    const Point2d last = (points.back() - points[points.size() - 2]).normalized();
+    if (bend.turn > 0.0) points.insert(points.begin(), points.front() - field_.width() * first);
+    if (next.turn > 0.0) points.push_back(points.back() + field_.width() * last);
+    return Polyline(points);
+  }
+
+  /// The free parts of `line`. What blocks it between two of them is passed like an edge of the border.
+  void addSides(const Polyline& line) {
+    const Curve whole = follow(line, 0.0, line.length(), maxKappa());
+    const double length = whole.length();
+    const int n = std::max(1, static_cast<int>(std::ceil(length / kPoseStep)));
+    int begin = -1;
+    for (int i = 0; i <= n + 1; ++i) {
+      const bool free = i <= n && field_.isFree(poseAt(whole, length * i / n));
+      if (free && begin < 0) begin = i;
+      if (free || begin < 0) continue;
+      const double from = length * begin / n, to = length * (i - 1) / n;
+      begin = -1;
+      if (to - from < kMinSide) continue;
+      if (corners_.size() < sides_.size()) corners_.push_back({poseAt(whole, from), kBlocked});
+      sides_.push_back({partOf(whole, from, to), to - from});
+    }
+  }
+
+  void findWays() {
+    CornerSearch search(field_, &grid_, price_);
+    ways_.resize(sides_.size());
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+      field_.cancel().throwIfCancelled();
+      const std::size_t next = (i + 1) % sides_.size();
+      Side before = sides_[i];
+      const double entered = i > 0 && ways_[i - 1] && !ways_[i - 1]->fills ? ways_[i - 1]->enter : 0.0;
+      before.curve = partOf(before.curve, entered, before.length);
+      before.length -= entered;
+      Side after = sides_[next];
+      if (next < i && ways_[next]) {  // closes the lap: the first side is left where it was found best
+        after.length = ways_[next]->leave;
+        after.curve = partOf(after.curve, 0.0, after.length);
+      }
+      ways_[i] = search.find(before, corners_[i], after);
+      if (ways_[i]) ways_[i]->leave += entered;
+    }
+  }
+
+  /// Where side `i` is driven from, when it is come to from the side before.
+  double enters(std::size_t i) const {
+    const auto& way = ways_[(i + sides_.size() - 1) % sides_.size()];
+    return way && !way->fills ? way->enter : 0.0;
+  }
+
+  /// Work that begins at the start of side `first` and goes on for `count` sides, back to the first if `closes`.
+  Curve drive(std::size_t first, std::size_t count, bool closes) const {
+    Curve curve{sides_[first].curve.start, {}};
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = (first + k) % sides_.size();
+      const bool goes_on = k + 1 < count || closes;
+      const double from = k == 0 ? 0.0 : enters(i), to = goes_on ? ways_[i]->leave : sides_[i].length;
+      curve.append(partOf(sides_[i].curve, from, to).arcs);
+      if (!goes_on) continue;
+      curve.append(ways_[i]->curve.arcs);
+      if (!ways_[i]->fills || k + 1 == count) continue;
+      const Side& next = sides_[(i + 1) % sides_.size()];
+      curve.append(backedUp(partOf(next.curve, 0.0, ways_[i]->enter)).arcs);
+    }
+    return curve;
+  }
+
+  std::vector<Work> chain() const {
+    std::vector<Work> works;
+    const std::size_t n = sides_.size();
+    if (n == 0) return works;
+    std::size_t broken = n;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!ways_[i]) broken = i;
+    }
+    if (broken == n) {
+      Work closed;
+      for (std::size_t i = 0; i < n; ++i) closed.ways.push_back(drive(i, n, true));
+      return {closed};
+    }
+    std::size_t begin = broken + 1, count = 0;
+    for (std::size_t k = 1; k <= n; ++k) {
+      ++count;
+      if (ways_[(broken + k) % n]) continue;
+      works.push_back({{drive(begin % n, count, false)}, -1});
+      const Curve round = turnedRound(works.back().ways.front());
+      if (field_.isFree(round)) works.back().ways.push_back(round);
+      begin += count;
+      count = 0;
+    }
+    return works;
+  }
+
+  const Field& field_;
+  double price_;
+  CoverageGrid& grid_;
+  const Ring& ring_;
+  std::vector<Side> sides_;
+  std::vector<Corner> corners_;  ///< after each side
+  std::vector<std::optional<CornerWay>> ways_;
+};
+
+}  // namespace
+
+std::vector<Work> planLap(const Field& field, int number, int around_holes, double price, CoverageGrid* grid) {
+  const double pitch = field.width() - field.params().overlap;
+  const double border = field.width() / 2.0 + number * pitch;
+  const double most = around_holes > 0 ? field.width() / 2.0 + around_holes * pitch : 0.0;
+  const shapes::Shapes lines = inset(field.workable(), border, std::min(border, most));
+  const double inner = border + field.width() / 2.0;
+  grid->clear(kInner);
+  grid->set(inset(field.workable(), inner, std::min(inner, most)), kInner);
+  std::vector<Work> works;
+  const auto add = [&](const shapes::Ring& line, bool is_ring) {
+    const Ring ring(pointsOf(line), field.radius());
+    if (ring.length() < field.width()) return;
+    for (Work& work : LapBuilder(field, price, grid, ring).build()) {
+      work.lap = number;
+      work.is_ring = is_ring;
+      grid->sweep(work.ways.front(), field.width());
+      works.push_back(std::move(work));
+    }
+  };
+  const auto shorter = [](const auto& a, const auto& b) { return perimeterOf(a) < perimeterOf(b); };
+  const auto main = std::max_element(lines.begin(), lines.end(), shorter);
+  for (auto shape = lines.begin(); shape != lines.end(); ++shape) {
+    add(shape->outer(), shape != main);
+    for (const auto& hole : shape->inners()) {
+      if (number < around_holes) add(hole, true);
+    }
+  }
+  return works;
+}
+
+}  // namespace external_command
