@@ -4,7 +4,7 @@
 set(EC_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)
 
 # ec_add_library(NAME SOURCES... [PUBLIC libs...] [PRIVATE libs...] [SYSTEM include dirs...])
-# A shared library with our warnings, in which every symbol must resolve.
+# A shared library with our warnings, in which every symbol must resolve; it is installed.
 function(ec_add_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE;SYSTEM" ${ARGN})
   add_library(${name} SHARED ${ARG_SOURCES})
@@ -13,6 +13,10 @@ function(ec_add_library name)
   target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/include)
   target_include_directories(${name} SYSTEM PUBLIC ${EIGEN3_INCLUDE_DIRS} ${ARG_SYSTEM})
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} -Wl,--no-undefined)
+  install(TARGETS ${name}
+    ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+    LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+    RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
 endfunction()
 
 # ec_add_gtest(NAME SOURCES... LIBRARIES libs...)

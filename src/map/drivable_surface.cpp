@@ -77,9 +77,8 @@ const BoostPolygon& partWith(const Polygon& core, const BoostMultiPolygon& whole
   };
   const auto found = std::find_if(whole.begin(), whole.end(), holds);
   if (found != whole.end()) return *found;
-  return *std::max_element(whole.begin(), whole.end(), [](const BoostPolygon& a, const BoostPolygon& b) {
-    return bg::area(a) < bg::area(b);
-  });
+  return *std::max_element(whole.begin(), whole.end(),
+                           [](const BoostPolygon& a, const BoostPolygon& b) { return bg::area(a) < bg::area(b); });
 }
 
 }  // namespace

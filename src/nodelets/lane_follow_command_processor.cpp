@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lane_follow_command_processor.h"
 
+#include "parking_manoeuvres.h"
+
 namespace external_command {
 
 LaneFollowCommandProcessor::LaneFollowCommandProcessor()
     : MotionCommandProcessor<LaneFollow>("external_command/lane_follow") {}
 
 LaneFollowCommandProcessor::~LaneFollowCommandProcessor() { stopServing(); }
+
+void LaneFollowCommandProcessor::start() {
+  MotionCommandProcessor<LaneFollow>::start();
+  planner_.emplace(getNodeHandle(), parameters(), context());
+}
 
 void LaneFollowCommandProcessor::check(const LaneFollowCommand& command) const {
   checkWayPoints(command.way_point, command.is_start_pose_set);
@@ -21,6 +28,12 @@ std::optional<RoutingTask> LaneFollowCommandProcessor::convert(const LaneFollowC
   setGoal(context(), command.header.frame_id, command.end_pose, "end_pose", &task);
   addBlackList(map, command.blacklisted_lane, command.blacklisted_road, &task);
   return task;
+}
+
+void LaneFollowCommandProcessor::processSpecialCommand(const LaneFollowCommand& command, const CancelToken& cancel,
+                                                       MotionPlan* plan) {
+  if (command.is_start_pose_set) return;
+  leaveParkingPlace(context(), context().vehiclePose().get(), *planner_, cancel, plan);
 }
 
 }  // namespace external_command

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "external_command/LaneFollow.h"
-#include "external_command/ros/motion_command_processor.h"
+#include "manoeuvre_planner.h"
 
 namespace external_command {
 
@@ -15,8 +15,12 @@ class LaneFollowCommandProcessor : public MotionCommandProcessor<LaneFollow> {
   ~LaneFollowCommandProcessor() override;
 
  private:
+  void start() override;
   void check(const LaneFollowCommand& command) const override;
   std::optional<RoutingTask> convert(const LaneFollowCommand& command) override;
+  void processSpecialCommand(const LaneFollowCommand& command, const CancelToken& cancel, MotionPlan* plan) override;
+
+  std::optional<ManoeuvrePlanner> planner_;
 };
 
 }  // namespace external_command

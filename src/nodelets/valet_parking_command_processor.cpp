@@ -41,6 +41,12 @@ ValetParkingCommandProcessor::ValetParkingCommandProcessor()
 
 ValetParkingCommandProcessor::~ValetParkingCommandProcessor() { stopServing(); }
 
+void ValetParkingCommandProcessor::start() {
+  MotionCommandProcessor<ValetParking>::start();
+  planner_.emplace(getNodeHandle(), parameters(), context());
+  direction_ = readParkingDirection(parameters());
+}
+
 void ValetParkingCommandProcessor::check(const ValetParkingCommand& command) const {
   if (command.parking_spot_id.empty()) {
     throw InvalidRequest("parking_spot_id is empty; give the id of a parking space of the map");
@@ -69,11 +75,20 @@ std::optional<RoutingTask> ValetParkingCommandProcessor::convert(const ValetPark
   return task;
 }
 
-void ValetParkingCommandProcessor::processSpecialCommand(const ValetParkingCommand& command,
-                                                         const CancelToken& /*cancel*/, MotionPlan* plan) {
+void ValetParkingCommandProcessor::processSpecialCommand(const ValetParkingCommand& command, const CancelToken& cancel,
+                                                         MotionPlan* plan) {
+  const HdMap& map = context().requireRouter().map();
+  const VehicleParams& vehicle = context().params().vehicle;
+  const ParkingSpace& space = *map.findParkingSpace(command.parking_spot_id);
+  if (!command.is_start_pose_set) {
+    leaveParkingPlace(context(), context().vehiclePose().get(), *planner_, cancel, plan);
+  }
+  const Region region = planner_->regionOf(surfaceWith(map, space.polygon, plan->path.back().pose()));
+  leaveRouteFor(parkingPoses(space, vehicle, direction_), region, *planner_, cancel, plan);
+
   plan->command.command_type = PlanningCommand::PARKING;
   plan->command.parking_command.parking_spot_id = command.parking_spot_id;
-  plan->command.parking_command.target_speed = std::min(command.target_speed, context().params().vehicle.max_speed);
+  plan->command.parking_command.target_speed = std::min(command.target_speed, vehicle.max_speed);
 }
 
 }  // namespace external_command

@@ -60,6 +60,7 @@ bool CommandRegistry::update(const CommandStatus& status) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto known = records_.find(status.command_id);
   if (known == records_.end() || hasEnded(known->second.status)) return false;
+  known->second.has_own_message = true;
   change(&known->second, status);
   return true;
 }
@@ -75,6 +76,7 @@ void CommandRegistry::report(const CommandStatus& status, const std::string& pro
   record.is_silent = false;
   if (status.status == CommandStatus::UNKNOWN) return;
   CommandStatus reported = status;
+  if (!hasEnded(status) && record.has_own_message) reported.message = record.status.message;
   if (status.status == CommandStatus::ERROR && status.error_code == CommandStatus::OK) {
     reported.error_code = CommandStatus::REFUSED_BY_VEHICLE;
   }

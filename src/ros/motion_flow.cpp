@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <ros/console.h>
 
+#include <algorithm>
+
 #include "external_command/core/text.h"
 #include "external_command/ros/motion_command_processor.h"
 
@@ -50,6 +52,10 @@ void MotionFlow::addRoute(const RoutingTask& task, double target_speed, const Ca
 
 void MotionFlow::complete(std::int64_t command_id, double target_speed, MotionPlan* plan) const {
   if (plan->path.empty()) throw InternalError("the command was planned, but its path is empty");
+  if (plan->path.size() == 1) plan->path.push_back(plan->path.front());  // the vehicle is there; still a path
+  if (target_speed > 0.0) {
+    for (ReferencePoint& point : plan->path) point.speed = std::min(point.speed, target_speed);
+  }
   PlanningCommand& command = plan->command;
   command.header.stamp = ros::Time::now();
   command.header.frame_id = context_.params().map_frame;

@@ -29,7 +29,7 @@ std::vector<LaneRange>::const_iterator BlockedLanes::firstOf(LaneIndex lane) con
 bool BlockedLanes::contains(LaneIndex lane, double s) const {
   if (ranges_.empty()) return false;
   for (auto range = firstOf(lane); range != ranges_.end() && range->lane == lane; ++range) {
-    if (s >= range->from_s && s <= range->to_s) return true;
+    if (s > range->from_s && s < range->to_s) return true;
   }
   return false;
 }

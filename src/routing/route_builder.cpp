@@ -179,6 +179,10 @@ void shareRoom(std::vector<Change>* changes) {
   }
 }
 
+bool goesOn(const LaneRange& first, const LaneRange& second) {
+  return first.lane == second.lane && std::abs(first.to_s - second.from_s) < kTiny;
+}
+
 /// What of `chain` lies between the two places on the way; begins with the end point of a piece where that is all of
 /// it.
 std::vector<LaneRange> slice(const Chain& chain, double x_from, double x_to) {
@@ -186,7 +190,12 @@ std::vector<LaneRange> slice(const Chain& chain, double x_from, double x_to) {
   for (const Piece& piece : chain) {
     if (piece.x_to < x_from - kTiny) continue;
     if (piece.x_from > x_to - kTiny && !ranges.empty()) break;
-    ranges.push_back({piece.lane, std::max(piece.from, piece.sAt(x_from)), std::min(piece.to, piece.sAt(x_to))});
+    const LaneRange range{piece.lane, std::max(piece.from, piece.sAt(x_from)), std::min(piece.to, piece.sAt(x_to))};
+    if (!ranges.empty() && goesOn(ranges.back(), range)) {
+      ranges.back().to_s = range.to_s;
+    } else {
+      ranges.push_back(range);
+    }
   }
   return ranges;
 }
@@ -197,17 +206,22 @@ double lengthOf(const std::vector<LaneRange>& ranges) {
   return length;
 }
 
-void append(const std::vector<LaneRange>& ranges, std::vector<RouteStep>* steps) {
-  for (const LaneRange& range : ranges) {
-    RouteStep* last = steps->empty() ? nullptr : &steps->back();
-    const bool goes_on = last != nullptr && last->change_after == LaneChange::kNone && last->lane == range.lane &&
-                         std::abs(last->to_s - range.from_s) < kTiny;
-    if (goes_on) {
-      last->to_s = range.to_s;
-    } else {
-      steps->push_back({range.lane, range.from_s, range.to_s});
+void append(const LaneRange& range, std::vector<RouteStep>* steps) {
+  if (!steps->empty() && steps->back().change_after == LaneChange::kNone) {
+    RouteStep& last = steps->back();
+    if (goesOn({last.lane, last.from_s, last.to_s}, range)) {
+      last.to_s = range.to_s;
+      return;
     }
+  } else if (!steps->empty()) {
+    const LaneRange arrival = steps->back().change_onto.back();  // a change that is done at the very end of a lane
+    if (arrival.lane != range.lane) steps->push_back({arrival.lane, arrival.to_s, arrival.to_s});
   }
+  steps->push_back({range.lane, range.from_s, range.to_s});
+}
+
+void append(const std::vector<LaneRange>& ranges, std::vector<RouteStep>* steps) {
+  for (const LaneRange& range : ranges) append(range, steps);
 }
 
 std::vector<RouteStep> stepsOf(const Course& course) {

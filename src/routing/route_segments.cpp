@@ -8,11 +8,6 @@ namespace external_command {
 
 namespace {
 
-/// Whether the route changes on, to the same side, before the lane piece on which it arrived ends.
-bool changesOn(const RouteRow& row, const RouteRow& next) {
-  return row.change == next.change && next.leave < next.pieceEndAt(next.onto) - 1e-6;
-}
-
 class SegmentWriter {
  public:
   explicit SegmentWriter(const HdMap& map) : map_(map) {}
@@ -45,16 +40,11 @@ std::vector<RouteSegment> toSegments(const HdMap& map, const Route& route) {
   for (std::size_t r = 0; r < rows.size(); ++r) {
     writer.addLanes(rows[r].slice(done, rows[r].leave));
     if (rows[r].change == LaneChange::kNone) break;
-    std::vector<RoutePassage> passages = {{rows[r].slice(rows[r].leave, rows[r].length), false, rows[r].change}};
-    while (changesOn(rows[r], rows[r + 1])) {
-      ++r;
-      passages.push_back({rows[r].slice(0.0, rows[r].length), false, rows[r].change});
-    }
-    const RouteRow& last = rows[r + 1];
-    done = last.pieceEndAt(last.onto);
-    if (last.change != LaneChange::kNone) done = std::min(done, last.leave);
-    passages.push_back({last.slice(0.0, done), true, LaneChange::kNone});
-    writer.add(std::move(passages));
+    const RouteRow &row = rows[r], &next = rows[r + 1];
+    done = next.pieceEndAt(next.onto);
+    if (next.change != LaneChange::kNone) done = std::min(done, next.leave);
+    writer.add(
+        {{row.slice(row.leave, row.length), false, row.change}, {next.slice(0.0, done), true, LaneChange::kNone}});
   }
   return writer.take();
 }

@@ -43,8 +43,8 @@ class CommandRegistry {
   /// From now on the vehicle's reports count for this command.
   void markSent(std::int64_t command_id, const std::string& message);
 
-  /// Ends a running command, or changes the message of it (status RUNNING). The first end counts: false where the
-  /// command is not running (any more).
+  /// Ends a running command, or changes the message of it (status RUNNING), which reports then leave as it is. The
+  /// first end counts: false where the command is not running (any more).
   bool update(const CommandStatus& status);
 
   /// A report of planner or chassis about a command of `processor`. Ignored for others, and where it is older than the
@@ -64,6 +64,7 @@ class CommandRegistry {
     std::uint64_t digest = 0;
     bool was_sent = false;
     bool is_silent = false;
+    bool has_own_message = false;  ///< its processor says more than the vehicle's reports
     ros::Time sent_at;          ///< to compare with the stamps of reports
     ros::WallTime last_report;  ///< or when it was sent
   };

@@ -37,7 +37,7 @@ struct RouteStep {
   /// The room reaches back over earlier steps where it is longer than this one.
   double change_room = 0.0;
   /// Of a change: what lies abreast of its room on the lanes changed to; ends where the next step begins.
-  std::vector<LaneRange> change_onto;
+  std::vector<LaneRange> change_onto = {};
 };
 
 /// What is asked for: any of `starts`, then each way point in order (any candidate of it), then any of `goals`.

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "free_space_command_processor.h"
+
+#include "external_command/core/text.h"
+#include "external_command/ros/checks.h"
+
+namespace external_command {
+
+namespace {
+
+Region::Parts partsOf(const FreeSpaceCommand& command, const Pose2d& frame) {
+  Region::Parts parts;
+  if (!command.drivable_roi.points.empty()) parts.drivable = toPolygon(command.drivable_roi, frame, "drivable_roi");
+  for (std::size_t i = 0; i < command.non_drivable_roi.size(); ++i) {
+    parts.non_drivable.push_back(toPolygon(command.non_drivable_roi[i], frame, text("non_drivable_roi[", i, "]")));
+  }
+  return parts;
+}
+
+}  // namespace
+
+FreeSpaceCommandProcessor::FreeSpaceCommandProcessor()
+    : MotionCommandProcessor<FreeSpace>("external_command/free_space") {}
+
+FreeSpaceCommandProcessor::~FreeSpaceCommandProcessor() { stopServing(); }
+
+void FreeSpaceCommandProcessor::start() {
+  MotionCommandProcessor<FreeSpace>::start();
+  planner_.emplace(getNodeHandle(), parameters(), context());
+}
+
+void FreeSpaceCommandProcessor::check(const FreeSpaceCommand& command) const {
+  requireFinite(command.parking_spot_pose, "parking_spot_pose");
+  if (!command.parking_spot_pose.has_heading) {
+    throw InvalidRequest("parking_spot_pose.has_heading is false; a parking pose needs a heading");
+  }
+  checkPolygons(command.non_drivable_roi, "non_drivable_roi");
+  if (!command.drivable_roi.points.empty()) checkPolygons({command.drivable_roi}, "drivable_roi");
+  requireNotNegative(command.target_speed, "target_speed");
+  partsOf(command, {});  // polygons that cross themselves
+}
+
+void FreeSpaceCommandProcessor::processSpecialCommand(const FreeSpaceCommand& command, const CancelToken& cancel,
+                                                      MotionPlan* plan) {
+  const Pose2d frame = context().vehiclePose().ofFrame(command.header.frame_id);
+  const Pose2d start = context().vehiclePose().get();
+  const Pose2d goal = toMapPose(command.parking_spot_pose, frame);
+  const Region region = planner_->regionOf(partsOf(command, frame));
+
+  plan->scene.start = start;
+  plan->scene.goal = goal;
+  appendManoeuvre(planner_->plan(start, {goal}, region, 1.0, cancel, plan->scene), plan);
+  showRegion(region, &plan->scene);
+  plan->command.command_type = PlanningCommand::CUSTOM;
+  plan->command.custom_command = packAny(command);
+}
+
+}  // namespace external_command

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "external_command/FreeSpace.h"
+#include "manoeuvre_planner.h"
+
+namespace external_command {
+
+/// Drives from the vehicle's pose to a pose inside polygons of the command, without lanes or a map.
+class FreeSpaceCommandProcessor : public MotionCommandProcessor<FreeSpace> {
+ public:
+  FreeSpaceCommandProcessor();
+  ~FreeSpaceCommandProcessor() override;
+
+ private:
+  void start() override;
+  void check(const FreeSpaceCommand& command) const override;
+  void processSpecialCommand(const FreeSpaceCommand& command, const CancelToken& cancel, MotionPlan* plan) override;
+
+  std::optional<ManoeuvrePlanner> planner_;
+};
+
+}  // namespace external_command

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "manoeuvre_planner.h"
+
+#include <nav_msgs/OccupancyGrid.h>
+#include <tf2/utils.h>
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+
+#include "external_command/core/text.h"
+#include "external_command/free_space/collision_checker.h"
+
+namespace external_command {
+
+struct ManoeuvrePlanner::LatestGrid {
+  std::mutex mutex;
+  nav_msgs::OccupancyGrid::ConstPtr message;
+};
+
+namespace {
+
+OccupancyGrid toGrid(const nav_msgs::OccupancyGrid& message, const Pose2d& frame) {
+  const auto& origin = message.info.origin;
+  OccupancyGrid grid;
+  grid.resolution = message.info.resolution;
+  grid.width = message.info.width;
+  grid.height = message.info.height;
+  grid.origin = compose(frame, {origin.position.x, origin.position.y,
+                                tf2::getYaw(tf2::Quaternion(origin.orientation.x, origin.orientation.y,
+                                                            origin.orientation.z, origin.orientation.w))});
+  grid.cells = message.data;
+  return grid;
+}
+
+unsigned readCount(const ParameterReader& reader, const std::string& key, int low, unsigned fallback) {
+  int value = static_cast<int>(fallback);
+  reader.readWithin(key, low, 10000000, &value);
+  return static_cast<unsigned>(value);
+}
+
+}  // namespace
+
+FreeSpaceParams readFreeSpaceParams(const ParameterReader& reader) {
+  FreeSpaceParams params;
+  params.spacing = 0.1;
+  reader.read("planner", &params.planner);
+  reader.read("margin", &params.margin);
+  reader.read("time_budget", &params.time_budget);
+  reader.read("improve_budget", &params.improve_budget);
+  params.max_iterations = readCount(reader, "max_iterations", 1, params.max_iterations);
+  params.improve_iterations = readCount(reader, "improve_iterations", 0, params.improve_iterations);
+  params.seed = readCount(reader, "seed", 0, params.seed);
+  params.threads = readCount(reader, "threads", 1, params.threads);
+  reader.read("gear_change_cost", &params.gear_change_cost);
+  reader.read("reverse_factor", &params.reverse_factor);
+  reader.read("path_spacing", &params.spacing);
+  reader.read("continuous_curvature", &params.continuous_curvature);
+  reader.read("manoeuvre_speed", &params.manoeuvre_speed);
+  params.validate();
+  return params;
+}
+
+ManoeuvrePlanner::ManoeuvrePlanner(ros::NodeHandle nh, const ParameterReader& reader, ProcessContext& context)
+    : context_(context),
+      params_(readFreeSpaceParams(reader.within("free_space"))),
+      latest_grid_(std::make_shared<LatestGrid>()) {
+  reader.read("obstacle_grid_name", &grid_topic_);
+  reader.readWithin("max_grid_age", 0.01, 3600.0, &max_grid_age_);
+  if (grid_topic_.empty()) return;
+  nh.setCallbackQueue(context.housekeeping().queue());
+  const boost::function<void(const nav_msgs::OccupancyGrid::ConstPtr&)> keep =
+      [latest = latest_grid_](const nav_msgs::OccupancyGrid::ConstPtr& message) {
+        const std::lock_guard<std::mutex> lock(latest->mutex);
+        latest->message = message;
+      };
+  grid_subscriber_ = nh.subscribe<nav_msgs::OccupancyGrid>(grid_topic_, 1, keep);
+}
+
+ManoeuvrePlanner::~ManoeuvrePlanner() = default;
+
+Region ManoeuvrePlanner::regionOf(Region::Parts parts) const {
+  if (grid_topic_.empty()) return Region(std::move(parts));
+  nav_msgs::OccupancyGrid::ConstPtr message;
+  {
+    const std::lock_guard<std::mutex> lock(latest_grid_->mutex);
+    message = latest_grid_->message;
+  }
+  if (!message) {
+    throw NotReady(text("no obstacle grid has come on ", grid_topic_, " (~obstacle_grid_name); is it published?"));
+  }
+  const double age = (ros::Time::now() - message->header.stamp).toSec();
+  if (!message->header.stamp.isZero() && age > max_grid_age_) {
+    throw NotReady(text("the obstacle grid on ", grid_topic_, " is ", age, " s old; the limit is ", max_grid_age_,
+                        " s (~max_grid_age)"));
+  }
+  parts.grid = toGrid(*message, context_.vehiclePose().ofFrame(message->header.frame_id));
+  return Region(std::move(parts));
+}
+
+FreeSpaceResult ManoeuvrePlanner::plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region,
+                                       double share, const CancelToken& cancel, const CommandScene& scene) const {
+  FreeSpaceParams params = params_;
+  params.time_budget *= share;
+  params.improve_budget *= share;
+  try {
+    return FreeSpacePlanner(context_.params().vehicle, params).plan(start, goals, region, cancel);
+  } catch (const StartBlocked&) {
+    showConflicts({start}, region, scene);
+    throw;
+  } catch (const GoalBlocked&) {
+    showConflicts(goals, region, scene);
+    throw;
+  }
+}
+
+void ManoeuvrePlanner::showConflicts(const std::vector<Pose2d>& poses, const Region& region, CommandScene scene) const {
+  const CollisionChecker checker(context_.params().vehicle, params_.margin, region);
+  showRegion(region, &scene);
+  for (const Pose2d& pose : poses) {
+    const auto collision = checker.collisionAt(pose);
+    if (!collision) continue;
+    const auto footprint = footprintAt(context_.params().vehicle, pose, params_.margin);
+    scene.conflicts.emplace_back(footprint.begin(), footprint.end());
+    if (collision->kind == Collision::Kind::kNonDrivable) {
+      scene.conflicts.push_back(region.nonDrivable()[collision->index].points());
+    } else if (collision->kind == Collision::Kind::kDrivableBorder) {
+      scene.conflicts.push_back(region.drivable()->points());
+    }
+  }
+  context_.display().showRefused(std::move(scene));
+}
+
+void appendManoeuvre(const FreeSpaceResult& manoeuvre, MotionPlan* plan) {
+  plan->path = join(plan->path, manoeuvre.path);
+  plan->report.min_clearance = plan->report.min_clearance > 0.0
+                                   ? std::min(plan->report.min_clearance, manoeuvre.min_clearance)
+                                   : manoeuvre.min_clearance;
+  plan->scene.with_footprints = true;
+}
+
+void showRegion(const Region& region, CommandScene* scene) {
+  if (region.drivable()) scene->regions.push_back(region.drivable()->points());
+  for (const Polygon& polygon : region.nonDrivable()) scene->obstacles.push_back(polygon.points());
+}
+
+}  // namespace external_command

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "external_command/free_space/free_space_planner.h"
+#include "external_command/ros/motion_command_processor.h"
+
+namespace external_command {
+
+/// The free-space planner as processors use it: with parameters, the live obstacle grid, and a display of what stood in
+/// the way. Thread-safe.
+class ManoeuvrePlanner {
+ public:
+  /// Reads the parameters `free_space/...` and `obstacle_grid_name` (empty: no grid) of a processor.
+  /// @throws InvalidParameter
+  ManoeuvrePlanner(ros::NodeHandle nh, const ParameterReader& reader, ProcessContext& context);
+  ~ManoeuvrePlanner();
+
+  const FreeSpaceParams& params() const { return params_; }
+
+  /// `parts` with the live obstacle grid added, where one is configured.
+  /// @throws NotReady  the grid has not come, or is too old.
+  Region regionOf(Region::Parts parts) const;
+
+  /// The cheapest manoeuvre from `start` to one of `goals`, within `share` of the time budget. A start or goal that is
+  /// blocked is shown in rviz together with `scene`.
+  /// @throws  as FreeSpacePlanner::plan()
+  FreeSpaceResult plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region, double share,
+                       const CancelToken& cancel, const CommandScene& scene) const;
+
+ private:
+  struct LatestGrid;
+
+  void showConflicts(const std::vector<Pose2d>& poses, const Region& region, CommandScene scene) const;
+
+  ProcessContext& context_;
+  FreeSpaceParams params_;
+  double max_grid_age_ = 2.0;  ///< an older grid counts as missing [s]
+  std::string grid_topic_;
+  std::shared_ptr<LatestGrid> latest_grid_;
+  ros::Subscriber grid_subscriber_;
+};
+
+/// @throws InvalidParameter
+FreeSpaceParams readFreeSpaceParams(const ParameterReader& reader);
+
+/// Adds a manoeuvre to the end of the plan's path, and what is to be told of it to the report.
+void appendManoeuvre(const FreeSpaceResult& manoeuvre, MotionPlan* plan);
+
+/// Outlines of a region for the display.
+void showRegion(const Region& region, CommandScene* scene);
+
+}  // namespace external_command

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "parking_manoeuvres.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "external_command/core/text.h"
+#include "external_command/map/drivable_surface.h"
+
+namespace external_command {
+
+namespace {
+
+constexpr double kSurfaceRadius = 25.0;                            // of lanes around a place to manoeuvre [m]
+constexpr double kGaps[] = {0.3, 1.0, 2.0, 4.0};                   // between lanes and a space, tried in turn [m]
+constexpr double kLeavingPoints[] = {0.0, 4.0, 8.0, 12.0};         // before the route's end, from which to leave it [m]
+constexpr double kJoiningPoints[] = {5.0, 8.0, 12.0, 16.0, 22.0};  // after the route's start, where to get onto it [m]
+
+const Polygon* placeOf(const HdMap& map, const Point2d& point) {
+  for (const ParkingSpace& space : map.parkingSpaces()) {
+    if (space.polygon.contains(point)) return &space.polygon;
+  }
+  const Area* area = map.areaAt(point);
+  return area != nullptr ? &area->polygon : nullptr;
+}
+
+Point2d middleOf(const VehicleParams& vehicle, const Pose2d& pose) {
+  return pose.position() + (vehicle.length() / 2.0 - vehicle.rear_overhang) * unitVector(pose.heading);
+}
+
+/// The point of `path` nearest to arc length `s` [m].
+std::size_t indexAt(const Path& path, double s) {
+  const auto after = std::lower_bound(path.begin(), path.end(), s,
+                                      [](const ReferencePoint& point, double wanted) { return point.s < wanted; });
+  return after == path.end() ? path.size() - 1 : static_cast<std::size_t>(after - path.begin());
+}
+
+}  // namespace
+
+ParkingDirection readParkingDirection(const ParameterReader& reader) {
+  std::string word = "cheaper";
+  reader.read("parking_direction", &word);
+  if (word == "nose_in") return ParkingDirection::kNoseIn;
+  if (word == "backing_in") return ParkingDirection::kBackingIn;
+  if (word == "cheaper") return ParkingDirection::kCheaper;
+  throw InvalidParameter(
+      text("parameter ", reader.nameOf("parking_direction"), " is '", word, "'; give nose_in, backing_in or cheaper"));
+}
+
+std::vector<Pose2d> parkingPoses(const ParkingSpace& space, const VehicleParams& vehicle, ParkingDirection direction) {
+  // In the frame of the space's heading the middle of its bounding box is the middle of the space.
+  const Pose2d frame{space.polygon.points()[0].x(), space.polygon.points()[0].y(), space.heading};
+  Point2d low = Point2d::Zero(), high = Point2d::Zero();
+  for (const Point2d& corner : space.polygon.points()) {
+    const Point2d local = relativeTo(frame, {corner.x(), corner.y(), 0.0}).position();
+    low = low.cwiseMin(local);
+    high = high.cwiseMax(local);
+  }
+  const Point2d middle = (low + high) / 2.0;
+  const double ahead = vehicle.length() / 2.0 - vehicle.rear_overhang;
+  const Pose2d nose_in = compose(frame, {middle.x() - ahead, middle.y(), 0.0});
+  const Pose2d backing_in = compose(frame, {middle.x() + ahead, middle.y(), M_PI});
+  if (direction == ParkingDirection::kNoseIn) return {nose_in};
+  if (direction == ParkingDirection::kBackingIn) return {backing_in};
+  return {nose_in, backing_in};
+}
+
+Region::Parts surfaceWith(const HdMap& map, const Polygon& core, const Pose2d& on_lane) {
+  std::optional<Surface> surface;
+  for (const double gap : kGaps) {
+    surface = drivableSurface(map, core, on_lane.position(), {kSurfaceRadius, gap});
+    if (surface->outer.contains(on_lane.position())) break;
+  }
+  Region::Parts parts;
+  parts.drivable = surface->outer;
+  parts.non_drivable = surface->holes;
+  for (const ParkingSpace& space : map.parkingSpaces()) {
+    const bool is_near = (space.polygon.points()[0] - on_lane.position()).norm() < kSurfaceRadius;
+    // A space inside the area to drive in is a mark on the ground, not a neighbour.
+    if (is_near && !core.contains(space.polygon.points()[0])) parts.non_drivable.push_back(space.polygon);
+  }
+  return parts;
+}
+
+void leaveRouteFor(const std::vector<Pose2d>& goals, const Region& region, const ManoeuvrePlanner& planner,
+                   const CancelToken& cancel, MotionPlan* plan) {
+  const double end = plan->path.back().s;
+  const double share = 1.0 / static_cast<double>(std::size(kLeavingPoints));
+  std::optional<FreeSpaceResult> best;
+  std::size_t best_index = 0;
+  double best_cost = 0.0;
+  std::string why;
+  for (const double before : kLeavingPoints) {
+    if (before > end) break;
+    const std::size_t index = indexAt(plan->path, end - before);
+    try {
+      FreeSpaceResult found = planner.plan(plan->path[index].pose(), goals, region, share, cancel, plan->scene);
+      const double cost = plan->path[index].s + found.cost;
+      if (best && cost >= best_cost) continue;
+      best = std::move(found);
+      best_index = index;
+      best_cost = cost;
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const GoalBlocked&) {
+      throw;
+    } catch (const Error& error) {
+      why += text(why.empty() ? "" : "; ", metres(before), " before the route's end: ", error.what());
+    }
+  }
+  if (!best) throw NoPath("no manoeuvre leads from the route to its goal: " + why);
+  plan->path.resize(best_index + 1);
+  showRegion(region, &plan->scene);
+  plan->scene.goal = goals[best->goal_index];
+  appendManoeuvre(*best, plan);
+}
+
+void leaveParkingPlace(const ProcessContext& context, const Pose2d& vehicle, const ManoeuvrePlanner& planner,
+                       const CancelToken& cancel, MotionPlan* plan) {
+  const HdMap& map = context.requireRouter().map();
+  if (!LaneWayTool(map, context.params().lane_way).isOffLane(vehicle)) return;
+  const Polygon* place = placeOf(map, middleOf(context.params().vehicle, vehicle));
+  if (place == nullptr) return;
+  std::vector<Pose2d> goals;
+  std::vector<std::size_t> indices;
+  for (const double after : kJoiningPoints) {
+    if (after > plan->path.back().s && !goals.empty()) break;
+    indices.push_back(indexAt(plan->path, after));
+    goals.push_back(plan->path[indices.back()].pose());
+  }
+  try {
+    const Region region = planner.regionOf(surfaceWith(map, *place, plan->path.front().pose()));
+    const FreeSpaceResult out = planner.plan(vehicle, goals, region, 0.5, cancel, plan->scene);
+    const Path rest(plan->path.begin() + static_cast<std::ptrdiff_t>(indices[out.goal_index]), plan->path.end());
+    plan->path.clear();
+    appendManoeuvre(out, plan);
+    plan->path = join(plan->path, rest);
+    plan->scene.start = vehicle;
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error& error) {
+    plan->report.warnings.push_back(
+        text("the path begins on the lane, not at the vehicle: no manoeuvre leads there (", error.what(), ")"));
+  }
+}
+
+}  // namespace external_command

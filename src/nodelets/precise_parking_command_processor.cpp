@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "precise_parking_command_processor.h"
+
+#include <algorithm>
+
+#include "area_access.h"
+#include "external_command/core/text.h"
+#include "external_command/free_space/collision_checker.h"
+
+namespace external_command {
+
+namespace {
+
+/// Straight from `from` over `length` [m], forward or in reverse.
+Path straightPath(const Pose2d& from, double length, Direction direction, double spacing,
+                  const VehicleParams& vehicle) {
+  const double sign = direction == Direction::kForward ? 1.0 : -1.0;
+  const int steps = std::max(1, static_cast<int>(std::ceil(length / spacing)));
+  Path path;
+  for (int i = 0; i <= steps; ++i) {
+    const double driven = length * i / steps;
+    const Pose2d pose = compose(from, {sign * driven, 0.0, 0.0});
+    ReferencePoint point;
+    point.x = pose.x;
+    point.y = pose.y;
+    point.heading = from.heading;
+    point.s = driven;
+    point.direction = direction;
+    point.speed = vehicle.max_speed;
+    path.push_back(point);
+  }
+  limitSpeeds(vehicle, &path);
+  return path;
+}
+
+}  // namespace
+
+PreciseParkingCommandProcessor::PreciseParkingCommandProcessor()
+    : MotionCommandProcessor<PreciseParking>("external_command/precise_parking") {}
+
+PreciseParkingCommandProcessor::~PreciseParkingCommandProcessor() { stopServing(); }
+
+void PreciseParkingCommandProcessor::start() {
+  MotionCommandProcessor<PreciseParking>::start();
+  planner_.emplace(getNodeHandle(), parameters(), context());
+  parameters().readWithin("straight_last", 0.1, 20.0, &straight_last_);
+  parameters().readWithin("access_distance", 0.0, 100.0, &access_distance_);
+}
+
+void PreciseParkingCommandProcessor::check(const PreciseParkingCommand& command) const {
+  checkWayPoints(command.way_point, command.is_start_pose_set);
+  requireFinite(command.parking_spot_pose, "parking_spot_pose");
+  if (!command.parking_spot_pose.has_heading) {
+    throw InvalidRequest("parking_spot_pose.has_heading is false; a parking pose needs a heading");
+  }
+  if (command.mission_type > PreciseParkingCommand::DUMP) {
+    throw InvalidRequest(text("mission_type is ", static_cast<int>(command.mission_type), "; give CHARGE 0 or DUMP 1"));
+  }
+  requireNotNegative(command.target_speed, "target_speed");
+}
+
+Pose2d PreciseParkingCommandProcessor::spotOf(const PreciseParkingCommand& command) const {
+  return toMapPose(command.parking_spot_pose, context().vehiclePose().ofFrame(command.header.frame_id));
+}
+
+const Area& PreciseParkingCommandProcessor::areaOf(const PreciseParkingCommand& command) const {
+  const HdMap& map = context().requireRouter().map();
+  const Pose2d spot = spotOf(command);
+  const Area* area = map.areaAt(spot.position());
+  if (area != nullptr) return *area;
+  throw InvalidRequest(text("parking_spot_pose ", at(spot), " lies in none of the ", map.areas().size(),
+                            " areas of the map; precise parking needs one, free space does not"));
+}
+
+std::optional<RoutingTask> PreciseParkingCommandProcessor::convert(const PreciseParkingCommand& command) {
+  const Area& area = areaOf(command);
+  const bool starts_inside = !command.is_start_pose_set && command.way_point.empty() &&
+                             area.polygon.contains(context().vehiclePose().get().position());
+  if (starts_inside) return std::nullopt;
+  const HdMap& map = context().requireRouter().map();
+  RoutingTask task = beginRoutingTask(context(), command.header.frame_id, command.is_start_pose_set, command.way_point);
+  setGoals(map, accessPoints(map, area, access_distance_), &task);
+  return task;
+}
+
+void PreciseParkingCommandProcessor::processSpecialCommand(const PreciseParkingCommand& command,
+                                                           const CancelToken& cancel, MotionPlan* plan) {
+  const HdMap& map = context().requireRouter().map();
+  const VehicleParams& vehicle = context().params().vehicle;
+  const Pose2d spot = spotOf(command);
+  const Direction into = command.parking_inwards ? Direction::kForward : Direction::kReverse;
+  const Pose2d before = compose(spot, {command.parking_inwards ? -straight_last_ : straight_last_, 0.0, 0.0});
+  const Polygon& area = areaOf(command).polygon;
+
+  const Pose2d entry = plan->path.empty() ? context().vehiclePose().get() : plan->path.back().pose();
+  const Region region = planner_->regionOf(surfaceWith(map, area, entry));
+  const Path last = straightPath(before, straight_last_, into, planner_->params().spacing, vehicle);
+  const CollisionChecker checker(vehicle, planner_->params().margin, region);
+  for (const ReferencePoint& point : last) {
+    if (const auto collision = checker.collisionAt(point.pose())) {
+      throw GoalBlocked(text("the straight last ", metres(straight_last_), " (~straight_last) into parking_spot_pose ",
+                             at(spot), " runs into ", collision->obstacle(), " at ", at(collision->at), " by ",
+                             metres(collision->depth)));
+    }
+  }
+  if (plan->path.empty()) {
+    plan->scene.start = entry;
+    appendManoeuvre(planner_->plan(entry, {before}, region, 1.0, cancel, plan->scene), plan);
+    showRegion(region, &plan->scene);
+  } else {
+    if (!command.is_start_pose_set) {
+      leaveParkingPlace(context(), context().vehiclePose().get(), *planner_, cancel, plan);
+    }
+    leaveRouteFor({before}, region, *planner_, cancel, plan);
+  }
+  plan->path = join(plan->path, last);
+  plan->report.min_clearance = std::min(plan->report.min_clearance, checker.minClearance(last));
+  plan->scene.goal = spot;
+  plan->command.command_type = PlanningCommand::CUSTOM;
+  plan->command.custom_command = packAny(command);
+}
+
+}  // namespace external_command

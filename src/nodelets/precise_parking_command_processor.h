@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "external_command/PreciseParking.h"
+#include "parking_manoeuvres.h"
+
+namespace external_command {
+
+/// Drives along the lanes to an area of the map and parks there at an exact pose.
+class PreciseParkingCommandProcessor : public MotionCommandProcessor<PreciseParking> {
+ public:
+  PreciseParkingCommandProcessor();
+  ~PreciseParkingCommandProcessor() override;
+
+ private:
+  void start() override;
+  void check(const PreciseParkingCommand& command) const override;
+  std::optional<RoutingTask> convert(const PreciseParkingCommand& command) override;
+  void processSpecialCommand(const PreciseParkingCommand& command, const CancelToken& cancel,
+                             MotionPlan* plan) override;
+
+  Pose2d spotOf(const PreciseParkingCommand& command) const;
+  const Area& areaOf(const PreciseParkingCommand& command) const;
+
+  std::optional<ManoeuvrePlanner> planner_;
+  double straight_last_ = 2.0;     ///< last stretch into the spot, straight [m]
+  double access_distance_ = 10.0;  ///< of lanes to areas without overlaps, at most [m]
+};
+
+}  // namespace external_command

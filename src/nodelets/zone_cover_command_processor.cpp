@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zone_cover_command_processor.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "area_access.h"
+#include "external_command/core/text.h"
+#include "zone_entry.h"
+
+namespace external_command {
+
+namespace {
+
+constexpr double kTrackingPeriod = 0.2;  // [s]
+
+}  // namespace
+
+CoverageParams readCoverageParams(const ParameterReader& reader) {
+  CoverageParams params;
+  std::string objective = "shortest";
+  double heading = std::nan("");
+  int seed = static_cast<int>(params.seed);
+  reader.read("swath_width", &params.swath_width);
+  reader.read("overlap", &params.overlap);
+  reader.read("margin", &params.margin);
+  reader.read("headland_laps", &params.headland_laps);
+  reader.read("headland_first", &params.headland_first);
+  reader.read("swath_heading", &heading);
+  reader.read("objective", &objective);
+  reader.read("target_coverage", &params.target_coverage);
+  reader.read("gear_change_cost", &params.gear_change_cost);
+  reader.read("path_spacing", &params.spacing);
+  reader.read("time_budget", &params.time_budget);
+  reader.readWithin("seed", 0, 1000000000, &seed);
+  if (reader.has("swath_heading")) params.swath_heading = heading;
+  if (objective != "shortest" && objective != "fewest_turns") {
+    throw InvalidParameter(
+        text("parameter ", reader.nameOf("objective"), " is '", objective, "'; give shortest or fewest_turns"));
+  }
+  params.objective = objective == "shortest" ? CoverageObjective::kShortest : CoverageObjective::kFewestTurns;
+  params.seed = static_cast<unsigned>(seed);
+  params.validate();
+  return params;
+}
+
+ZoneCoverCommandProcessor::ZoneCoverCommandProcessor()
+    : MotionCommandProcessor<ZoneCover>("external_command/zone_cover") {}
+
+ZoneCoverCommandProcessor::~ZoneCoverCommandProcessor() {
+  tracking_timer_.stop();
+  stopServing();
+}
+
+void ZoneCoverCommandProcessor::start() {
+  MotionCommandProcessor<ZoneCover>::start();
+  planner_.emplace(getNodeHandle(), parameters(), context());
+  coverage_params_ = readCoverageParams(parameters().within("coverage"));
+  parameters().readWithin("access_distance", 0.0, 100.0, &access_distance_);
+  parameters().read("progress_folder", &progress_folder_);
+}
+
+void ZoneCoverCommandProcessor::open() {
+  MotionCommandProcessor<ZoneCover>::open();
+  ros::SteadyTimerOptions options;
+  options.period = ros::WallDuration(kTrackingPeriod);
+  options.callback = [this](const ros::SteadyTimerEvent&) { track(); };
+  options.callback_queue = lane().queue();
+  tracking_timer_ = getNodeHandle().createSteadyTimer(options);
+}
+
+void ZoneCoverCommandProcessor::check(const ZoneCoverCommand& command) const {
+  const bool by_area = !command.zone_cover_area_id.empty();
+  const bool by_polygon = !command.drivable_roi.points.empty();
+  if (by_area == by_polygon) {
+    throw InvalidRequest("give either zone_cover_area_id, an area of the map, or drivable_roi, a polygon");
+  }
+  checkWayPoints(command.way_point, command.is_start_pose_set);
+  if (by_polygon && command.way_point.size() > (command.is_start_pose_set ? 1u : 0u)) {
+    throw InvalidRequest("way_point needs lanes to drive on; with drivable_roi only a start can be given");
+  }
+  if (by_polygon && command.is_start_pose_set && !command.way_point[0].has_heading) {
+    throw InvalidRequest("way_point[0].has_heading is false; the start of a zone needs a heading");
+  }
+  if (by_polygon) checkPolygons({command.drivable_roi}, "drivable_roi");
+  checkPolygons(command.non_drivable_roi, "non_drivable_roi");
+  requireNotNegative(command.swath_width, "swath_width");
+  requireNotNegative(command.target_speed, "target_speed");
+  if (!command.skip_swath.empty() && !command.resume) {
+    throw InvalidRequest("skip_swath needs resume: swaths are known of a zone that was begun");
+  }
+}
+
+const Area& ZoneCoverCommandProcessor::areaOf(const ZoneCoverCommand& command) const {
+  const HdMap& map = context().requireRouter().map();
+  const Area* area = map.findArea(command.zone_cover_area_id);
+  if (area != nullptr) return *area;
+  throw InvalidRequest(text("zone_cover_area_id '", command.zone_cover_area_id, "' is none of the ", map.areas().size(),
+                            " areas of the map"));
+}
+
+CoverageArea ZoneCoverCommandProcessor::zoneOf(const ZoneCoverCommand& command) const {
+  const Pose2d frame = context().vehiclePose().ofFrame(command.header.frame_id);
+  const bool by_area = !command.zone_cover_area_id.empty();
+  CoverageArea zone{by_area ? areaOf(command).polygon : toPolygon(command.drivable_roi, frame, "drivable_roi"), {}};
+  for (std::size_t i = 0; i < command.non_drivable_roi.size(); ++i) {
+    zone.holes.push_back(toPolygon(command.non_drivable_roi[i], frame, text("non_drivable_roi[", i, "]")));
+  }
+  return zone;
+}
+
+Pose2d ZoneCoverCommandProcessor::givenStart(const ZoneCoverCommand& command) const {
+  if (!command.is_start_pose_set) return context().vehiclePose().get();
+  return toMapPose(command.way_point[0], context().vehiclePose().ofFrame(command.header.frame_id));
+}
+
+std::optional<RoutingTask> ZoneCoverCommandProcessor::convert(const ZoneCoverCommand& command) {
+  if (command.zone_cover_area_id.empty()) return std::nullopt;
+  const Area& area = areaOf(command);
+  const bool has_way = command.way_point.size() > (command.is_start_pose_set ? 1u : 0u);
+  if (!has_way && area.polygon.contains(givenStart(command).position())) return std::nullopt;
+  RoutingTask task = beginRoutingTask(context(), command.header.frame_id, command.is_start_pose_set, command.way_point);
+  setGoals(context().requireRouter().map(), accessPoints(context().requireRouter().map(), area, access_distance_),
+           &task);
+  return task;
+}
+
+void ZoneCoverCommandProcessor::enterZone(const ZoneCoverCommand& command, const CoverageArea& zone,
+                                          const CancelToken& cancel, MotionPlan* plan) const {
+  const HdMap& map = context().requireRouter().map();
+  if (!command.is_start_pose_set) {
+    leaveParkingPlace(context(), context().vehiclePose().get(), *planner_, cancel, plan);
+  }
+  const Pose2d from = plan->path.back().pose();
+  const auto entries = zoneEntries(zone, context().params().vehicle, coverage_params_.margin, from);
+  Region::Parts parts = surfaceWith(map, zone.outer, from);
+  parts.non_drivable.insert(parts.non_drivable.end(), zone.holes.begin(), zone.holes.end());
+  leaveRouteFor(entries, planner_->regionOf(std::move(parts)), *planner_, cancel, plan);
+}
+
+ZoneProgress ZoneCoverCommandProcessor::progressOf(const ZoneCoverCommand& command, const ZonePlanFile& file,
+                                                   const Pose2d& start) const {
+  ZoneProgress fresh;
+  fresh.planned_from = start;
+  if (!command.resume) return fresh;
+  const auto kept = file.read();
+  if (!kept) {
+    throw InvalidRequest(
+        text("resume: no earlier run of this zone is known (", file.path(), "); send the command without resume"));
+  }
+  if (kept->done_swaths == kept->total_swaths) {
+    throw InvalidRequest(text("resume: the zone is swept, all ", kept->total_swaths,
+                              " swaths of it; send the command without resume to sweep it again"));
+  }
+  return *kept;
+}
+
+void ZoneCoverCommandProcessor::appendCoverage(const CoverageResult& coverage, MotionPlan* plan) const {
+  plan->path = join(plan->path, coverage.path);
+  PlanReport& report = plan->report;
+  report.coverage_ratio = coverage.coverage_ratio;
+  report.warnings.insert(report.warnings.end(), coverage.warnings.begin(), coverage.warnings.end());
+  if (!coverage.uncovered.empty()) {
+    report.warnings.push_back(text(coverage.uncovered.size(), " parts stay unswept; ", coverage.covered_area, " of ",
+                                   coverage.free_area, " m^2 are covered"));
+  }
+  plan->scene.conflicts = coverage.uncovered;
+}
+
+void ZoneCoverCommandProcessor::processSpecialCommand(const ZoneCoverCommand& command, const CancelToken& cancel,
+                                                      MotionPlan* plan) {
+  const CoverageArea zone = zoneOf(command);
+  CoverageParams params = coverage_params_;
+  if (command.swath_width > 0.0) params.swath_width = command.swath_width;
+  const CoveragePlanner planner(context().params().vehicle, params);
+  if (!plan->path.empty()) enterZone(command, zone, cancel, plan);
+  const Pose2d start = plan->path.empty() ? givenStart(command) : plan->path.back().pose();
+
+  ZonePlanFile file(progress_folder_, zoneKey(zone, params, context().params().vehicle));
+  ZoneProgress progress = progressOf(command, file, start);
+  const CoverageProgress done{
+      progress.done_swaths, {command.skip_swath.begin(), command.skip_swath.end()}, progress.planned_from};
+  CoverageResult coverage = planner.plan(zone, start, done, cancel);
+  const std::size_t offset = plan->path.empty() ? 0 : plan->path.size() - 1;  // join() shares the point between both
+  appendCoverage(coverage, plan);
+  plan->scene.start = plan->path.front().pose();
+  plan->scene.goal = plan->path.back().pose();
+  plan->scene.regions.push_back(zone.outer.points());
+  for (const Polygon& hole : zone.holes) plan->scene.obstacles.push_back(hole.points());
+  plan->command.command_type = PlanningCommand::CUSTOM;
+  plan->command.custom_command = packAny(command);
+  if (command.dry_run) return;
+
+  double todo = 0.0;
+  for (Swath& swath : coverage.swaths) {
+    swath.first += offset;
+    swath.last += offset;
+    todo += swath.covered_area;
+  }
+  progress.total_swaths = coverage.total_swaths;
+  file.write(progress);
+  const std::lock_guard<std::mutex> lock(sweep_mutex_);
+  sweep_.emplace(Sweep{command.command_id, ZoneTracker(plan->path, coverage.swaths), file, progress,
+                       std::max(0.0, coverage.covered_area - todo), coverage.reachable_area});
+}
+
+void ZoneCoverCommandProcessor::track() {
+  const std::lock_guard<std::mutex> lock(sweep_mutex_);
+  if (!sweep_ || context().gate().lastSent() != sweep_->command_id) return;
+  const CommandStatus status = context().registry().find(sweep_->command_id);
+  try {
+    if (status.status == CommandStatus::FINISHED) keepDone(sweep_->progress.total_swaths);
+    if (status.status == CommandStatus::RUNNING) followVehicle();
+  } catch (const Error& error) {
+    ROS_WARN_STREAM_THROTTLE(10.0, getName() << ": the progress is not followed: " << error.what());
+  }
+  if (hasEnded(status)) sweep_.reset();
+}
+
+void ZoneCoverCommandProcessor::followVehicle() {
+  ZoneTracker& tracker = sweep_->tracker;
+  tracker.update(context().vehiclePose().get());
+  if (tracker.current() > 0) keepDone(tracker.swaths()[tracker.current() - 1].index + 1);
+  const double covered = sweep_->covered_before + tracker.coveredArea();
+  const std::size_t total = sweep_->progress.total_swaths;
+  context().registry().update(makeStatus(
+      sweep_->command_id, CommandStatus::RUNNING, ErrorCode::kOk,
+      text("swath ", std::min(sweep_->progress.done_swaths + 1, total), " of ", total, ", ",
+           static_cast<int>(100.0 * std::min(covered / std::max(sweep_->goal_area, 1e-9), 1.0)), " % covered")));
+}
+
+void ZoneCoverCommandProcessor::keepDone(std::size_t done_swaths) {
+  if (done_swaths <= sweep_->progress.done_swaths) return;
+  sweep_->progress.done_swaths = done_swaths;
+  sweep_->file.write(sweep_->progress);
+}
+
+}  // namespace external_command
