@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "external_command/core/text.h"
+
+#include <gtest/gtest.h>
+
+namespace external_command {
+namespace {
+
+TEST(Text, PutsItsArgumentsOneAfterTheOther) {
+  EXPECT_EQ(text("lane ", std::string("a"), " ends at ", 12.5, " m, ", 3, '.'), "lane a ends at 12.5 m, 3.");
+  EXPECT_EQ(text(4137624.25), "4137624.25");
+}
+
+TEST(Text, WritesPointsPosesAndLengths) {
+  EXPECT_EQ(at(Point2d(12.3, -4.5)), "(12.30, -4.50)");
+  EXPECT_EQ(at(Pose2d{12.3, 4.5, M_PI / 2}), "(12.30, 4.50, 1.571)");
+  EXPECT_EQ(metres(7.1), "7.10 m");
+}
+
+TEST(Text, SurvivesAnyNumber) {
+  EXPECT_FALSE(at(Point2d(1e308, -1e308)).empty());
+  EXPECT_FALSE(metres(std::nan("")).empty());
+}
+
+}  // namespace
+}  // namespace external_command

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The component as a process of a test: with parameters of its own, its output kept."""
+import os
+import signal
+import subprocess
+import tempfile
+
+import roslib.packages
+import rospy
+
+import support
+
+LANE_FOLLOW = "external_command/LaneFollowCommandProcessor"
+
+
+class Component:
+    """`external_command_process` in `namespace`; `parameters`: those of the namespace.
+
+        with Component("/nowhere", {"external_command": {"processors": []}}) as component:
+            code = component.wait_for_end()
+    """
+
+    def __init__(self, namespace, parameters, environment=None):
+        self.namespace = namespace
+        self._parameters = parameters
+        self._environment = dict(os.environ, **(environment or {}))
+        self._log = tempfile.NamedTemporaryFile(prefix="component_", suffix=".log")
+        self._process = None
+
+    def __enter__(self):
+        for key, value in self._parameters.items():
+            rospy.set_param(rospy.names.ns_join(self.namespace, key), value)
+        executable = roslib.packages.find_node("external_command", "external_command_process")[0]
+        self._process = subprocess.Popen(
+            [executable, "__ns:=" + self.namespace, "__name:=external_command"], env=self._environment,
+            stdin=subprocess.DEVNULL, stdout=self._log, stderr=subprocess.STDOUT)
+        return self
+
+    def __exit__(self, *_):
+        if self._process.poll() is None:
+            self._process.send_signal(signal.SIGINT)
+        try:
+            self._process.wait(support.DEADLINE)
+        finally:
+            self._process.kill()
+            self._log.close()
+            if rospy.has_param(self.namespace):
+                rospy.delete_param(self.namespace)
+
+    @property
+    def pid(self):
+        return self._process.pid
+
+    @property
+    def is_running(self):
+        return self._process.poll() is None
+
+    @property
+    def output(self):
+        with open(self._log.name, encoding="utf-8", errors="replace") as log:
+            return log.read()
+
+    def wait_for_end(self):
+        """The exit code."""
+        return self._process.wait(support.DEADLINE)
+
+    def service(self, name, service_type):
+        return support.service(rospy.names.ns_join(self.namespace, name), service_type)

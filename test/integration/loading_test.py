@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What the component says and does when a processor, or a parameter, is wrong."""
+import os
+import subprocess
+import tempfile
+import textwrap
+import unittest
+
+import rospy
+import rostest
+
+import support
+from component import LANE_FOLLOW, Component
+from external_command.msg import CommandStatus
+from external_command.srv import GetCommandStatus
+
+NAMESPACE = "/loading_test"
+ACTION = "external_command/ActionCommandProcessor"
+UNKNOWN = "nobody/NoSuchProcessor"
+
+
+def component(processors, others=None, environment=None, **parameters):
+    own = dict(parameters, processors=processors)
+    return Component(NAMESPACE, dict(others or {}, external_command=own), environment)
+
+
+class LoadingTest(unittest.TestCase):
+    def assert_stops(self, started, *words):
+        with started:
+            code = started.wait_for_end()
+            output = started.output
+        self.assertNotEqual(code, 0, output)
+        self.assertGreater(code, 0, "it crashed:\n" + output)
+        self.assertIn("FATAL", output)
+        for word in words:
+            self.assertIn(word, output)
+
+    def assert_starts(self, started, *words):
+        with started:
+            status = started.service("external_command/command_status", GetCommandStatus)(command_id=1).status
+            self.assertEqual(status.error_code, CommandStatus.UNKNOWN_ID)
+            self.assertTrue(started.is_running)
+            output = started.output
+        for word in words:
+            self.assertIn(word, output)
+
+    def test_starts_with_what_it_was_told_to(self):
+        self.assert_starts(component([LANE_FOLLOW, ACTION]))
+
+    def test_an_unknown_class_stops_the_start(self):
+        self.assert_stops(component([LANE_FOLLOW, UNKNOWN]), UNKNOWN, "no nodelet plug-in declares", LANE_FOLLOW,
+                          "setup.bash", "require_all")
+
+    def test_a_class_that_throws_while_starting_stops_the_start(self):
+        others = {"lane_follow_command_processor": {"input_command_name": 5}}
+        self.assert_stops(component([ACTION, LANE_FOLLOW], others), LANE_FOLLOW,
+                          NAMESPACE + "/lane_follow_command_processor/input_command_name", "string", "whole number")
+
+    def test_the_same_class_twice_stops_the_start(self):
+        self.assert_stops(component([LANE_FOLLOW, LANE_FOLLOW]), LANE_FOLLOW, "twice")
+
+    def test_an_empty_list_stops_the_start(self):
+        self.assert_stops(component([]), NAMESPACE + "/external_command/processors", "empty")
+
+    def test_a_library_that_cannot_be_loaded_stops_the_start(self):
+        with tempfile.TemporaryDirectory() as folder:
+            broken = self._package_without_library(folder)
+            paths = os.environ.get("ROS_PACKAGE_PATH", "") + ":" + folder
+            self.assert_stops(component([broken], environment={"ROS_PACKAGE_PATH": paths}), broken, "liblost")
+
+    @staticmethod
+    def _package_without_library(folder):
+        """Declares a plug-in whose library is not there."""
+        package = os.path.join(folder, "lost_package")
+        os.mkdir(package)
+        with open(os.path.join(package, "package.xml"), "w", encoding="utf-8") as file:
+            file.write(textwrap.dedent("""\
+                <package format="2">
+                  <name>lost_package</name><version>0.0.1</version><description>None.</description>
+                  <maintainer email="nobody@example.invalid">Nobody</maintainer><license>Apache-2.0</license>
+                  <buildtool_depend>catkin</buildtool_depend><depend>nodelet</depend>
+                  <export><nodelet plugin="${prefix}/plugins.xml"/></export>
+                </package>
+                """))
+        with open(os.path.join(package, "plugins.xml"), "w", encoding="utf-8") as file:
+            file.write(textwrap.dedent("""\
+                <library path="lib/liblost">
+                  <class name="lost_package/LostProcessor" type="lost_package::LostProcessor"
+                         base_class_type="nodelet::Nodelet"/>
+                </library>
+                """))
+        return "lost_package/LostProcessor"
+
+    def test_starts_the_others_where_not_all_are_required(self):
+        broken = {"action_command_processor": {"input_command_name": False}}
+        processors = [UNKNOWN, ACTION, LANE_FOLLOW, LANE_FOLLOW]
+        started = component(processors, broken, require_all=False)
+        self.assert_starts(started, UNKNOWN + " did not start", ACTION + " did not start", "input_command_name",
+                           LANE_FOLLOW + " did not start", "twice")
+        self.assert_starts(component([], require_all=False), "processors", "empty")
+
+    def test_a_wrong_parameter_stops_the_start_with_its_name(self):
+        wrong = {
+            "processors": ("lane_follow", "list of strings"),
+            "require_all": ("yes please", "boolean"),
+            "map_file": ("/nowhere/base_map.bin", "/nowhere/base_map.bin"),
+            "map_origin": ([1.0], "none, auto, or [x, y]"),
+            "map_frame": (3, "string"),
+            "max_pose_age": (-1.0, "[0.01, 3600]"),
+            "planner_silence_timeout": ("long", "number"),
+            "vehicle": ({"width": -2.0}, "vehicle/width"),
+            "routing": ({"snap_distance": "far"}, "snap_distance"),
+        }
+        for name, (value, expected) in wrong.items():
+            with self.subTest(name):
+                parameters = dict({"processors": [LANE_FOLLOW]}, **{name: value})
+                self.assert_stops(Component(NAMESPACE, {"external_command": parameters}), name, expected)
+
+    def test_the_loader_of_a_manager_is_told_too(self):
+        name = "/loading_test_in_manager"
+        rospy.set_param(name, {"processors": [UNKNOWN]})
+        load = ["rosrun", "nodelet", "nodelet", "load", "external_command/ExternalCommandProcessComponent", "manager",
+                "__name:=" + name[1:]]
+        result = subprocess.run(load, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=support.DEADLINE,
+                                check=False)
+        self.assertNotEqual(result.returncode, 0, result.stdout.decode())
+
+
+if __name__ == "__main__":
+    rospy.init_node("loading_test")
+    rostest.rosrun("external_command", "loading", LoadingTest)

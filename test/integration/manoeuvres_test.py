@@ -1,0 +1,196 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Commands whose paths are planned: free space, valet and precise parking, zone cover; driven by the simulated vehicle."""
+import math
+import shutil
+import unittest
+
+import rospy
+import rostest
+import tf2_ros
+from geometry_msgs.msg import Point
+
+import support
+from external_command.msg import (
+    CommandStatus, FreeSpaceCommand, LaneFollowCommand, PathPoint, PlanningCommand, Pose, PreciseParkingCommand,
+    RoiPolygon, ValetParkingCommand, ZoneCoverCommand)
+from external_command.srv import FreeSpace, LaneFollow, PreciseParking, ValetParking, ZoneCover
+
+CHARGING_SPOT = Pose(x=322.0, y=110.0, heading=0.0, has_heading=True)
+ON_MAIN_STREET = Pose(x=90.0, y=194.75, heading=0.0, has_heading=True)
+COURTYARD = [(-15, -15), (15, -15), (15, 15), (-15, 15)]
+
+
+def polygon(corners):
+    return RoiPolygon(points=[Point(x=x, y=y) for x, y in corners])
+
+
+def box(x, y, size):
+    return polygon([(x - size, y - size), (x + size, y - size), (x + size, y + size), (x - size, y + size)])
+
+
+def pose(x, y, heading):
+    return Pose(x=x, y=y, heading=heading, has_heading=True)
+
+
+class ManoeuvresTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.buffer = tf2_ros.Buffer()
+        cls.listener = tf2_ros.TransformListener(cls.buffer)
+        for frame in ("base_link", "courtyard/base_link"):
+            support.wait_until(lambda name=frame: cls.buffer.can_transform("map", name, rospy.Time(0)), frame)
+        for ns in ("apollo", "courtyard"):
+            support.wait_until(lambda name=ns: cls.knows_its_pose(name), ns + " knows its pose")
+
+    @staticmethod
+    def knows_its_pose(ns):
+        call = support.service("/%s/external_command/free_space" % ns, FreeSpace)
+        answer = call(FreeSpaceCommand(parking_spot_pose=pose(0.0, 0.0, 0.0), dry_run=True))
+        return answer.status.error_code != CommandStatus.NOT_READY
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree("/tmp/external_command_manoeuvres_test", ignore_errors=True)
+
+    def call(self, ns, name, service_type, command):
+        return support.service("/%s/external_command/%s" % (ns, name), service_type)(command)
+
+    def free_space(self, goal, **fields):
+        fields.setdefault("drivable_roi", polygon(COURTYARD))
+        return self.call("courtyard", "free_space", FreeSpace, FreeSpaceCommand(parking_spot_pose=goal, **fields))
+
+    def zone_cover(self, **fields):
+        return self.call("courtyard", "zone_cover", ZoneCover, ZoneCoverCommand(**fields))
+
+    def vehicle(self, frame):
+        transform = self.buffer.lookup_transform("map", frame, rospy.Time(0)).transform
+        return transform.translation.x, transform.translation.y, 2.0 * math.atan2(
+            transform.rotation.z, transform.rotation.w)
+
+    def assert_stands_at(self, goal, frame):
+        x, y, heading = self.vehicle(frame)
+        self.assertLess(math.hypot(x - goal.x, y - goal.y), 0.1)
+        self.assertLess(abs(math.remainder(heading - goal.heading, 2.0 * math.pi)), 0.02)
+
+    def assert_ends_at(self, path, goal):
+        last = path.points[-1]
+        self.assertLess(math.hypot(last.x - goal.x, last.y - goal.y), 1e-3)
+        self.assertLess(abs(math.remainder(last.heading - goal.heading, 2.0 * math.pi)), math.radians(0.01))
+
+    def assert_running(self, answer):
+        self.assertEqual(answer.status.status, CommandStatus.RUNNING, support.describe(answer.status))
+        return answer.status.command_id
+
+    def assert_refused(self, answer, error_code, *words):
+        self.assertEqual(answer.status.error_code, error_code, support.describe(answer.status))
+        for word in words:
+            self.assertIn(word, answer.status.message)
+
+    def drive(self, ns, answer):
+        command_id = self.assert_running(answer)
+        support.wait_for_status(command_id, CommandStatus.FINISHED, "/%s/external_command/command_status" % ns, 90.0)
+
+    def drive_to_the_middle(self):
+        self.drive("courtyard", self.free_space(pose(0.0, 0.0, 0.0)))
+
+    def test_free_space_parks_in_a_courtyard_without_a_map(self):
+        goal = pose(-8.0, 9.0, math.pi / 2.0)
+        answer = self.free_space(goal, non_drivable_roi=[box(-2.0, 8.0, 1.5)])
+        self.assertGreater(answer.report.min_clearance, 0.0)
+        self.drive("courtyard", answer)
+        self.assert_stands_at(goal, "courtyard/base_link")
+
+    def test_free_space_is_repeatable(self):
+        goal = pose(8.0, -8.0, -math.pi / 2.0)
+        first, second = (self.free_space(goal, dry_run=True) for _ in range(2))
+        self.assertEqual([p.x for p in first.path.points], [p.x for p in second.path.points])
+        self.assert_ends_at(first.path, goal)
+
+    def test_free_space_refuses_what_cannot_be_reached(self):
+        self.drive_to_the_middle()
+        self.assert_refused(self.free_space(pose(0.0, 14.9, 0.0)), CommandStatus.GOAL_BLOCKED, "drivable_roi")
+        self.assert_refused(self.free_space(pose(6.0, 6.0, 0.0), non_drivable_roi=[box(9.0, 9.0, 0.5), box(7.0, 6.0, 1)]),
+                            CommandStatus.GOAL_BLOCKED, "non_drivable_roi[1]")
+        wall = [polygon([(-15, 10), (15, 10), (15, 10.2), (-15, 10.2)])]
+        self.assert_refused(self.free_space(pose(-3.0, 12.7, 0.0), non_drivable_roi=wall), CommandStatus.NO_PATH)
+
+    def test_free_space_refuses_bad_polygons(self):
+        bow_tie = polygon([(0, 0), (5, 5), (5, 0), (0, 5)])
+        self.assert_refused(self.free_space(pose(5, 5, 0), non_drivable_roi=[bow_tie]), CommandStatus.INVALID_REQUEST,
+                            "non_drivable_roi[0]")
+        self.assert_refused(self.free_space(Pose(x=5, y=5)), CommandStatus.INVALID_REQUEST, "has_heading")
+
+    def valet(self, spot, **fields):
+        return self.call("apollo", "valet_parking", ValetParking, ValetParkingCommand(parking_spot_id=spot, **fields))
+
+    def test_valet_parking_ends_in_the_space(self):
+        for spot in ("n_out_5", "ave_east_2"):
+            with self.subTest(spot=spot):
+                answer = self.valet(spot, is_start_pose_set=True, way_point=[ON_MAIN_STREET], dry_run=True)
+                self.assertEqual(answer.status.status, CommandStatus.FINISHED, support.describe(answer.status))
+                self.assertGreater(answer.report.gear_changes + answer.report.path_length, 0.0)
+                self.assertGreater(answer.report.min_clearance, 0.0)
+
+    def test_parks_and_leaves_the_space_again(self):
+        self.drive("apollo", self.valet("n_out_5"))
+        answer = self.call("apollo", "lane_follow", LaneFollow, LaneFollowCommand(end_pose=Pose(x=300.0, y=195.0)))
+        self.assertEqual(answer.report.warnings, [])
+        sent = support.Collector("/apollo/planning/command", PlanningCommand)
+        command = sent.wait_for(lambda m: m.command_id == answer.status.command_id, "the command")
+        x, y, _ = self.vehicle("base_link")
+        first = command.path.points[0]
+        self.assertLess(math.hypot(first.x - x, first.y - y), 1.0)
+        self.drive("apollo", answer)
+
+    def precise(self, spot=CHARGING_SPOT, **fields):
+        return self.call("apollo", "precise_parking", PreciseParking,
+                         PreciseParkingCommand(parking_spot_pose=spot, **fields))
+
+    def test_precise_parking_reaches_the_exact_pose_nose_in_or_backing_in(self):
+        for inwards, gear in ((True, PathPoint.FORWARD), (False, PathPoint.REVERSE)):
+            with self.subTest(parking_inwards=inwards):
+                answer = self.precise(parking_inwards=inwards, is_start_pose_set=True, way_point=[ON_MAIN_STREET],
+                                      dry_run=True)
+                self.assertEqual(answer.status.status, CommandStatus.FINISHED, support.describe(answer.status))
+                self.assert_ends_at(answer.path, CHARGING_SPOT)
+                self.assertEqual(answer.path.points[-1].direction, gear)
+                self.assertTrue(answer.report.lane_ids)
+
+    def test_precise_parking_refuses_a_spot_outside_every_area(self):
+        self.assert_refused(self.precise(ON_MAIN_STREET), CommandStatus.INVALID_REQUEST, "area")
+
+    def test_zone_cover_sweeps_a_courtyard_and_tells_how_far_it_is(self):
+        statuses = support.Collector("/courtyard/external_command/status", CommandStatus)
+        self.drive_to_the_middle()
+        answer = self.zone_cover(drivable_roi=polygon(COURTYARD), swath_width=2.0)
+        self.assertGreater(answer.report.coverage_ratio, 0.8)
+        command_id = self.assert_running(answer)
+        statuses.wait_for(lambda m: m.command_id == command_id and "swath" in m.message and "%" in m.message, "progress")
+        support.wait_for_status(command_id, CommandStatus.FINISHED, "/courtyard/external_command/command_status", 90.0)
+
+    def test_zone_cover_sweeps_an_area_of_the_map(self):
+        command = ZoneCoverCommand(zone_cover_area_id="yard", swath_width=2.5, dry_run=True, is_start_pose_set=True,
+                                   way_point=[ON_MAIN_STREET])
+        answer = self.call("apollo", "zone_cover", ZoneCover, command)
+        self.assertEqual(answer.status.status, CommandStatus.FINISHED, support.describe(answer.status))
+        self.assertTrue(answer.report.lane_ids)
+        self.assertTrue(any(answer.path.tool_on))
+        self.assertFalse(answer.path.tool_on[0])
+
+    def test_zone_cover_refuses_what_cannot_be_swept(self):
+        self.drive_to_the_middle()
+        invalid = CommandStatus.INVALID_REQUEST
+        self.assert_refused(self.zone_cover(), invalid, "zone_cover_area_id", "drivable_roi")
+        self.assert_refused(self.zone_cover(drivable_roi=polygon([(0, 0), (1, 0), (1, 1), (0, 1)])), CommandStatus.START_BLOCKED)
+        self.assert_refused(self.zone_cover(drivable_roi=polygon([(0, 0), (30, 30), (30, 0), (0, 30)])), invalid,
+                            "drivable_roi")
+        elsewhere = polygon([(100, 100), (140, 100), (140, 140), (100, 140)])
+        self.assert_refused(self.zone_cover(drivable_roi=elsewhere), CommandStatus.START_BLOCKED)
+        unknown = ZoneCoverCommand(zone_cover_area_id="no_such_area")
+        self.assert_refused(self.call("apollo", "zone_cover", ZoneCover, unknown), invalid, "no_such_area")
+
+
+if __name__ == "__main__":
+    rospy.init_node("manoeuvres_test")
+    rostest.rosrun("external_command", "manoeuvres", ManoeuvresTest)

@@ -1,0 +1,57 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What is missing is named, and what does not need it works."""
+import unittest
+
+import rospy
+import rostest
+import tf2_ros
+from geometry_msgs.msg import TransformStamped
+
+import support
+from external_command.msg import CommandStatus, LaneFollowCommand, PlanningCommand, Pose
+from external_command.srv import LaneFollow
+
+EAST_END = Pose(x=300.0, y=195.0)
+
+
+def lane_follow(ns, **fields):
+    return support.service("/%s/external_command/lane_follow" % ns, LaneFollow)(LaneFollowCommand(**fields)).status
+
+
+class NotReadyTest(unittest.TestCase):
+    def test_says_that_no_map_is_loaded(self):
+        status = lane_follow("without_map", end_pose=EAST_END)
+        self.assertEqual(status.error_code, CommandStatus.NOT_READY, support.describe(status))
+        self.assertIn("map_file", status.message)
+
+    def test_says_that_the_pose_is_missing_and_replays_nothing_when_it_comes(self):
+        sent = support.Collector("/without_pose/planning/command", PlanningCommand)
+        status = lane_follow("without_pose", end_pose=EAST_END)
+        self.assertEqual(status.error_code, CommandStatus.NOT_READY, support.describe(status))
+        self.assertIn("nobody", status.message)
+
+        broadcaster = tf2_ros.TransformBroadcaster()
+        transform = TransformStamped()
+        transform.header.frame_id, transform.child_frame_id = "map", "nobody"
+        transform.transform.translation.x, transform.transform.translation.y = 100.0, 195.0
+        transform.transform.rotation.w = 1.0
+
+        def is_known():
+            transform.header.stamp = rospy.Time.now()
+            broadcaster.sendTransform(transform)
+            answer = lane_follow("without_pose", end_pose=EAST_END, dry_run=True)
+            return answer.error_code != CommandStatus.NOT_READY
+
+        support.wait_until(is_known, "the pose is known")
+        self.assertEqual(sent.messages, [])
+
+    def test_a_given_start_needs_no_vehicle(self):
+        status = lane_follow("without_pose", end_pose=EAST_END, is_start_pose_set=True, dry_run=True,
+                             way_point=[Pose(x=100.0, y=195.0)])
+        self.assertEqual(status.status, CommandStatus.FINISHED, support.describe(status))
+
+
+if __name__ == "__main__":
+    rospy.init_node("not_ready_test")
+    rostest.rosrun("external_command", "not_ready", NotReadyTest)

@@ -1,0 +1,175 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Following a given path without any map: by the service, and by nav_msgs/Path on a topic."""
+import math
+import unittest
+
+import rospy
+import rostest
+from geometry_msgs.msg import Point, PoseStamped
+from nav_msgs.msg import Path
+
+import support
+from external_command import any_message
+from external_command.msg import CommandLogEntry, CommandStatus, PathFollowCommand, PathPoint, PlanningCommand
+from external_command.srv import PathFollow
+from vehicle import Vehicle
+
+
+def points(*xy):
+    return [Point(x, y, 0.0) for x, y in xy]
+
+
+STRAIGHT = points((0.0, 0.0), (10.0, 0.0), (20.0, 0.0))
+
+
+def follow(frame="", **fields):
+    command = PathFollowCommand(**fields)
+    command.header.frame_id = frame
+    return support.service("external_command/path_follow", PathFollow)(command)
+
+
+def dry_run(way_point, **fields):
+    return follow(way_point=way_point, dry_run=True, **fields)
+
+
+class PathFollowTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.vehicle = Vehicle()
+
+    def setUp(self):
+        self.sent = support.Collector("planning/command", PlanningCommand)
+
+    def tearDown(self):
+        self.sent.close()
+
+    def assert_planned(self, answer):
+        self.assertEqual(answer.status.status, CommandStatus.FINISHED, support.describe(answer.status))
+        return answer.path.points
+
+    def assert_refused(self, answer, *words):
+        status = answer.status
+        self.assertEqual(status.status, CommandStatus.ERROR, support.describe(status))
+        self.assertEqual(status.error_code, CommandStatus.INVALID_REQUEST, support.describe(status))
+        for word in words:
+            self.assertIn(word, status.message)
+
+    def sent_command(self, command_id):
+        return self.sent.wait_for(lambda m: m.command_id == command_id, "planning command %d" % command_id)
+
+    def test_drives_along_the_path_to_its_end(self):
+        way = self.vehicle.ahead((0.0, 0.0), (10.0, 0.0), (20.0, 2.0), (30.0, 6.0))
+        answer = follow(way_point=way, target_speed=4.0)
+        self.assertEqual(answer.status.status, CommandStatus.RUNNING, support.describe(answer.status))
+        self.assertEqual(answer.report.warnings, [])
+        command = self.sent_command(answer.status.command_id)
+        self.assertTrue(command.is_motion_command)
+        self.assertFalse(command.has_lane_follow_command)
+        self.assertEqual(command.command_type, PlanningCommand.CUSTOM)
+        packed = any_message.unpack(command.custom_command, PathFollowCommand)
+        self.assertEqual(packed.way_point, way)
+        self.assertEqual(packed.command_id, answer.status.command_id)
+        self.assertEqual(command.path.header.frame_id, "map")
+        self.assertLessEqual(max(point.speed for point in command.path.points), 4.0)
+        support.wait_for_status(answer.status.command_id, CommandStatus.FINISHED)
+        x, y, _ = self.vehicle.pose
+        self.assertLess(math.hypot(x - way[-1].x, y - way[-1].y), 0.3)
+
+    def test_reverses_where_the_headings_say_so(self):
+        _, _, heading = self.vehicle.pose
+        way = self.vehicle.ahead((0.0, 0.0), (8.0, 0.0), (4.0, 0.0), (0.0, 0.0))
+        answer = follow(way_point=way, heading=[heading] * 4)
+        self.assertEqual(answer.report.gear_changes, 1)
+        self.assertAlmostEqual(answer.report.reverse_length, 8.0, places=3)
+        directions = [point.direction for point in self.sent_command(answer.status.command_id).path.points]
+        self.assertEqual((directions[0], directions[-1]), (PathPoint.FORWARD, PathPoint.REVERSE))
+        support.wait_until(lambda: self.vehicle.speed < -0.2, "the vehicle reverses")
+        support.wait_for_status(answer.status.command_id, CommandStatus.FINISHED)
+
+    def test_passes_through_every_way_point_smoothly(self):
+        way = points(*[(20.0 * math.sin(0.1 * i), 20.0 - 20.0 * math.cos(0.1 * i)) for i in range(12)])
+        path = self.assert_planned(dry_run(way))
+        for point in way:
+            self.assertLess(min(math.hypot(p.x - point.x, p.y - point.y) for p in path), 1e-6)
+        for point in path:
+            self.assertAlmostEqual(point.kappa, 0.05, delta=0.002)
+        lengths = [after.s - before.s for before, after in zip(path, path[1:])]
+        self.assertTrue(all(0.0 < length <= 0.51 for length in lengths), lengths)
+
+    def test_warns_of_corners_bends_and_narrow_places(self):
+        corner = dry_run(points((0.0, 0.0), (30.0, 0.0), (30.0, 30.0)))
+        self.assert_planned(corner)
+        self.assertEqual(len(corner.report.warnings), 1, corner.report.warnings)
+        for words in ("way_point[1]", "(30.00, 0.00)", "5.00 m"):
+            self.assertIn(words, corner.report.warnings[0])
+        tight = dry_run(points(*[(3.0 * math.sin(0.2 * i), 3.0 - 3.0 * math.cos(0.2 * i)) for i in range(8)]))
+        self.assertEqual(len(tight.report.warnings), 1, tight.report.warnings)
+        self.assertIn("radius of 3.0", tight.report.warnings[0])
+        narrow = dry_run(STRAIGHT, left_path_width=0.5, right_path_width=0.6)
+        self.assertIn("1.10 m", narrow.report.warnings[0])
+
+    def test_takes_borders_or_widths(self):
+        left, right = (points((0.0, y), (10.0, y), (20.0, y)) for y in (2.0, -2.0))
+        self.assertEqual(dry_run(STRAIGHT, left_boundary=left, right_boundary=right).report.warnings, [])
+        self.assertEqual(dry_run(STRAIGHT, left_path_width=2.0, right_path_width=1.5).report.warnings, [])
+        both = dict(left_boundary=left, right_boundary=right, left_path_width=2.0, right_path_width=2.0)
+        self.assert_refused(dry_run(STRAIGHT, **both), "not both")
+        self.assert_refused(dry_run(STRAIGHT, left_boundary=left[:2], right_boundary=right), "left_boundary has 2")
+        self.assert_refused(dry_run(STRAIGHT, left_boundary=left), "right_boundary has 0")
+        self.assert_refused(dry_run(STRAIGHT, left_path_width=2.0), "right_path_width")
+        self.assert_refused(dry_run(STRAIGHT, left_path_width=-2.0, right_path_width=2.0), "left_path_width is -2")
+
+    def test_transforms_another_frame(self):
+        path = self.assert_planned(dry_run(STRAIGHT, frame="yard"))
+        self.assertAlmostEqual(path[-1].x, 100.0, places=3)
+        self.assertAlmostEqual(path[-1].y, 220.0, places=3)
+        self.assertAlmostEqual(path[-1].heading, math.pi / 2.0, places=3)
+        self.assert_refused(dry_run(STRAIGHT, frame="no_such_frame"), "no_such_frame")
+
+    def test_refuses_bad_paths_and_leaves_the_running_command_alone(self):
+        running = self.vehicle.drive_straight()
+        self.assert_refused(follow(), "way_point", "0 elements")
+        self.assert_refused(follow(way_point=STRAIGHT[:1]), "way_point", "1 elements")
+        self.assert_refused(follow(way_point=STRAIGHT[:2] + STRAIGHT[1:]), "way_point[2]", "repeats")
+        self.assert_refused(follow(way_point=points((0.0, 0.0), (math.nan, 0.0))), "way_point[1].x", "finite")
+        self.assert_refused(follow(way_point=points((0.0, 0.0), (1e12, 0.0))), "too long")
+        self.assert_refused(follow(way_point=STRAIGHT, heading=[0.0]), "heading has 1")
+        self.assert_refused(follow(way_point=STRAIGHT, heading=[0.0, math.inf, 0.0]), "heading[1]", "finite")
+        self.assert_refused(follow(way_point=STRAIGHT, heading=[0.0, 1.6, 1.6]), "across")
+        self.assert_refused(follow(way_point=STRAIGHT, target_speed=-1.0), "target_speed")
+        self.assertEqual(support.command_status(running).status, CommandStatus.RUNNING)
+
+    def publish_path(self, way, frame="map"):
+        """A nav_msgs/Path; its entry in the command log."""
+        publisher = rospy.Publisher("given_path", Path, queue_size=1)
+        log = support.Collector("external_command/log", CommandLogEntry)
+        support.wait_until(lambda: publisher.get_num_connections() > 0, "somebody takes the path")
+        path = Path(poses=[PoseStamped() for _ in way])
+        path.header.frame_id = frame
+        for stamped, point in zip(path.poses, way):
+            stamped.pose.position = point
+        publisher.publish(path)
+        entry = log.wait_for(lambda _: True, "an entry in the log")
+        log.close()
+        return entry
+
+    def test_follows_a_path_from_the_topic(self):
+        entry = self.publish_path(self.vehicle.ahead((0.0, 0.0), (15.0, 0.0)))
+        self.assertEqual(entry.reply.status, CommandStatus.RUNNING, support.describe(entry.reply))
+        self.assertEqual(entry.caller, rospy.get_name())
+        self.sent_command(entry.reply.command_id)
+        support.wait_for_status(entry.reply.command_id, CommandStatus.FINISHED)
+
+    def test_refuses_a_bad_path_from_the_topic(self):
+        statuses = support.Collector("external_command/status", CommandStatus)
+        entry = self.publish_path(points((1.0, 1.0)))
+        self.assertEqual(entry.reply.error_code, CommandStatus.INVALID_REQUEST, support.describe(entry.reply))
+        statuses.wait_for(lambda m: m.command_id == entry.reply.command_id and m.status == CommandStatus.ERROR,
+                          "the refusal on the topic of statuses")
+        self.assertEqual(self.publish_path(STRAIGHT, frame="nowhere").reply.error_code, CommandStatus.INVALID_REQUEST)
+
+
+if __name__ == "__main__":
+    rospy.init_node("path_follow_test")
+    rostest.rosrun("external_command", "path_follow", PathFollowTest)

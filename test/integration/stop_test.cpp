@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+// A stop gets through whatever the process is busy with, and nothing that was planned before it leaves after it.
+#include <gtest/gtest.h>
+#include <nodelet/loader.h>
+#include <ros/ros.h>
+
+#include <algorithm>
+#include <future>
+#include <pluginlib/class_loader.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "external_command/Action.h"
+#include "external_command/Chassis.h"
+#include "external_command/ControlPad.h"
+#include "external_command/PlanningCommand.h"
+#include "external_command/PlanningPad.h"
+#include "support/blocking_nodelets.h"
+
+namespace external_command {
+namespace {
+
+constexpr double kLatest = 0.1;  // [s]
+
+/// The messages of one topic, received on a thread of its own.
+template <class Message>
+class Inbox {
+ public:
+  explicit Inbox(const std::string& topic) {
+    ros::NodeHandle nh;
+    nh.setCallbackQueue(lane_.queue());
+    const boost::function<void(const Message&)> on_message = [this](const Message& message) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      messages_.push_back(message);
+      changed_.notify_all();
+    };
+    subscriber_ = nh.subscribe<Message>(topic, 100, on_message);
+  }
+  ~Inbox() { lane_.stop(); }
+
+  /// False where `count` messages have not come within 10 s.
+  bool waitFor(std::size_t count) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    return changed_.wait_for(lock, std::chrono::seconds(10), [&] { return messages_.size() >= count; });
+  }
+
+  std::vector<Message> messages() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return messages_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Message> messages_;
+  DedicatedLane lane_;
+  ros::Subscriber subscriber_;
+};
+
+/// A nodelet manager in this process, with the action processor and two nodelets of the test.
+class Stop : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(load("action_command_processor", "external_command/ActionCommandProcessor"));
+    ASSERT_TRUE(load("planner", "test/BlockingPlanner"));
+    ASSERT_TRUE(load("blocker", "test/WorkerBlocker"));
+    ASSERT_TRUE(ros::service::waitForService("external_command/action", 10000));
+    ASSERT_TRUE(ros::service::waitForService(BlockingPlanner::kService, 10000));
+  }
+
+  void TearDown() override {
+    if (workers_) workers_->open();
+    loader_.clear();
+  }
+
+  bool load(const std::string& name, const std::string& type) {
+    return loader_.load(ros::names::resolve(name), type, {}, {});
+  }
+
+  boost::shared_ptr<nodelet::Nodelet> create(const std::string& type) {
+    if (type == "test/WorkerBlocker") return blocker_ = boost::make_shared<WorkerBlocker>();
+    if (type == "test/BlockingPlanner") return planner_ = boost::make_shared<BlockingPlanner>();
+    return classes_.createInstance(type);
+  }
+
+  /// Occupies each worker thread of the manager, and queues more for each.
+  void blockEveryWorker() {
+    const unsigned workers = std::max(1u, std::thread::hardware_concurrency());
+    workers_ = std::make_shared<TestGate>();
+    blocker_->block(workers_, 4 * workers);
+    ASSERT_TRUE(workers_->waitForEntered(workers));
+  }
+
+  static CommandStatus send(std::uint8_t action) {
+    Action call;
+    call.request.command.command = action;
+    EXPECT_TRUE(ros::service::call("external_command/action", call));
+    return call.response.status;
+  }
+
+  /// Calls the planner; the answer comes when its gate is open.
+  static std::future<CommandStatus> plan() {
+    return std::async(std::launch::async, [] {
+      PathFollow call;
+      EXPECT_TRUE(ros::service::call(BlockingPlanner::kService, call));
+      return call.response.status;
+    });
+  }
+
+  /// Sends `action` 50 times while every worker is blocked and a plan is running; the longest time [s] from the call
+  /// to its answer, and to the arrival of what it sends.
+  template <class Pad>
+  void expectPromptness(std::uint8_t action, std::uint8_t pad, Inbox<Pad>* inbox) {
+    constexpr int kCalls = 50;
+    double slowest_answer = 0.0, slowest_pad = 0.0;
+    for (int i = 0; i < kCalls; ++i) {
+      const auto gate = planner_->holdPlans(true);
+      auto planned = plan();
+      ASSERT_TRUE(gate->waitForEntered(1));
+      const std::size_t seen = inbox->messages().size();
+      const ros::SteadyTime begin = ros::SteadyTime::now();
+      const CommandStatus status = send(action);
+      slowest_answer = std::max(slowest_answer, (ros::SteadyTime::now() - begin).toSec());
+      ASSERT_TRUE(inbox->waitFor(seen + 1));
+      slowest_pad = std::max(slowest_pad, (ros::SteadyTime::now() - begin).toSec());
+      EXPECT_NE(status.status, CommandStatus::ERROR) << status.message;
+      EXPECT_EQ(inbox->messages().back().action, pad);
+      EXPECT_EQ(planned.get().error_code, CommandStatus::CANCELLED);
+    }
+    std::printf("slowest of %d: answered in %.1f ms, arrived in %.1f ms\n", kCalls, 1e3 * slowest_answer,
+                1e3 * slowest_pad);
+    EXPECT_LT(slowest_answer, kLatest);
+    EXPECT_LT(slowest_pad, kLatest);
+    EXPECT_EQ(workers_->entered(), std::max(1u, std::thread::hardware_concurrency())) << "the workers were blocked";
+  }
+
+  pluginlib::ClassLoader<nodelet::Nodelet> classes_{"nodelet", "nodelet::Nodelet"};
+  boost::shared_ptr<WorkerBlocker> blocker_;
+  boost::shared_ptr<BlockingPlanner> planner_;
+  std::shared_ptr<TestGate> workers_;
+  nodelet::Loader loader_{boost::function<boost::shared_ptr<nodelet::Nodelet>(const std::string&)>(
+      [this](const std::string& type) { return create(type); })};
+};
+
+TEST_F(Stop, IsAnsweredAndSentWhileEveryWorkerIsBlockedAndAPlanIsRunning) {
+  Inbox<PlanningPad> pads("planning/pad");
+  blockEveryWorker();
+  expectPromptness(ActionCommand::STOP, PlanningPad::STOP, &pads);
+}
+
+TEST_F(Stop, IsAsPromptAsClearPlanning) {
+  Inbox<PlanningPad> pads("planning/pad");
+  blockEveryWorker();
+  expectPromptness(ActionCommand::CLEAR_PLANNING, PlanningPad::CLEAR_PLANNING, &pads);
+}
+
+TEST_F(Stop, IsAsPromptAsTheSwitchToManual) {
+  Inbox<ControlPad> pads("control/pad");
+  ros::NodeHandle nh;
+  ros::Publisher chassis = nh.advertise<Chassis>("canbus/chassis", 1, true);
+  Chassis in_auto;
+  in_auto.driving_mode = Chassis::COMPLETE_AUTO_DRIVE;
+  chassis.publish(in_auto);
+  while (send(ActionCommand::SWITCH_TO_MANUAL).error_code == CommandStatus::NOT_READY) std::this_thread::yield();
+  ASSERT_TRUE(pads.waitFor(1));
+  blockEveryWorker();
+  expectPromptness(ActionCommand::SWITCH_TO_MANUAL, ControlPad::RESET, &pads);
+}
+
+TEST_F(Stop, KeepsAPlanFromBeingSentThatEndsAfterIt) {
+  Inbox<PlanningCommand> commands("planning/command");
+  const auto gate = planner_->holdPlans(false);
+  auto planned = plan();
+  ASSERT_TRUE(gate->waitForEntered(1));
+  send(ActionCommand::STOP);
+  gate->open();
+  const CommandStatus late = planned.get();
+  EXPECT_EQ(late.status, CommandStatus::ERROR);
+  EXPECT_EQ(late.error_code, CommandStatus::CANCELLED) << late.message;
+
+  // What is commanded after the stop is sent, and is the first that arrives.
+  planner_->holdPlans(true)->open();
+  const CommandStatus next = plan().get();
+  EXPECT_EQ(next.status, CommandStatus::RUNNING) << next.message;
+  ASSERT_TRUE(commands.waitFor(1));
+  EXPECT_EQ(commands.messages().front().command_id, next.command_id);
+}
+
+TEST_F(Stop, CancelsAPlanThatPollsItsToken) {
+  const auto gate = planner_->holdPlans(true);
+  auto planned = plan();
+  ASSERT_TRUE(gate->waitForEntered(1));
+  send(ActionCommand::STOP);
+  EXPECT_TRUE(gate->waitForLeft(1)) << "though nobody opened the gate";
+  EXPECT_EQ(planned.get().error_code, CommandStatus::CANCELLED);
+}
+
+TEST_F(Stop, LetsANewerCommandCancelAnOlderPlan) {
+  Inbox<PlanningCommand> commands("planning/command");
+  const auto gate = planner_->holdPlans(true);
+  auto older = plan();
+  ASSERT_TRUE(gate->waitForEntered(1));
+  planner_->holdPlans(true)->open();
+  const CommandStatus newer = plan().get();
+  EXPECT_EQ(older.get().error_code, CommandStatus::SUPERSEDED);
+  ASSERT_TRUE(commands.waitFor(1));
+  EXPECT_EQ(commands.messages().front().command_id, newer.command_id);
+}
+
+}  // namespace
+}  // namespace external_command
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "stop_test");
+  const ros::NodeHandle nh;  // keeps ROS running between the tests
+  return RUN_ALL_TESTS();
+}

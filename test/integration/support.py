@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the tests of the running system share: deadlines instead of sleeps."""
+import threading
+import time
+
+import rospy
+
+from external_command.msg import CommandStatus
+from external_command.srv import GetCommandStatus
+
+DEADLINE = 30.0  # [s] of wall time; what is late by that much does not come
+
+STATUS_NAMES = {
+    CommandStatus.RUNNING: "RUNNING",
+    CommandStatus.FINISHED: "FINISHED",
+    CommandStatus.ERROR: "ERROR",
+    CommandStatus.UNKNOWN: "UNKNOWN",
+}
+
+
+def describe(status):
+    """A status in one line, for messages of failed assertions."""
+    return "command %d %s, code %d: %s" % (
+        status.command_id, STATUS_NAMES.get(status.status, status.status), status.error_code, status.message)
+
+
+def service(name, service_type):
+    """A proxy of a service that is there."""
+    rospy.wait_for_service(name, timeout=DEADLINE)
+    return rospy.ServiceProxy(name, service_type)
+
+
+def wait_until(condition, what, deadline=DEADLINE):
+    """Waits for `condition()` to be true; an AssertionError that says `what` did not happen where it stays false."""
+    end = time.monotonic() + deadline
+    while not condition():
+        if time.monotonic() > end:
+            raise AssertionError("not within %.0f s: %s" % (deadline, what))
+        time.sleep(0.01)
+
+
+def command_status(command_id, name="external_command/command_status"):
+    """What the status service says of a command."""
+    return service(name, GetCommandStatus)(command_id=command_id).status
+
+
+def wait_for_status(command_id, wanted, name="external_command/command_status", deadline=DEADLINE):
+    """Waits until the command has the status `wanted`; returns it."""
+    end = time.monotonic() + deadline
+    while True:
+        status = command_status(command_id, name)
+        if status.status == wanted:
+            return status
+        if status.status in (CommandStatus.FINISHED, CommandStatus.ERROR) or time.monotonic() > end:
+            raise AssertionError("wanted %s, got %s" % (STATUS_NAMES[wanted], describe(status)))
+        time.sleep(0.05)
+
+
+class Collector:
+    """Every message of a topic since its making, the connection made before the constructor returns."""
+
+    def __init__(self, topic, message_type, connected=True):
+        self._lock = threading.Lock()
+        self._messages = []
+        self._subscriber = rospy.Subscriber(topic, message_type, self._add)
+        if connected:
+            wait_until(lambda: self._subscriber.get_num_connections() > 0, "a publisher of " + topic)
+
+    def _add(self, message):
+        with self._lock:
+            self._messages.append(message)
+
+    @property
+    def messages(self):
+        with self._lock:
+            return list(self._messages)
+
+    def wait_for(self, matches, what):
+        """The first message for which `matches(message)` is true."""
+        wait_until(lambda: any(matches(message) for message in self.messages), what)
+        return next(message for message in self.messages if matches(message))
+
+    def close(self):
+        self._subscriber.unregister()

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The simulated vehicle as the tests of the running system see and drive it."""
+import math
+
+import rospy
+import tf2_ros
+from geometry_msgs.msg import Point
+
+import support
+from external_command.msg import Chassis, PathFollowCommand
+from external_command.srv import PathFollow
+
+
+class Vehicle:
+    """What the vehicle reports."""
+
+    def __init__(self):
+        self._buffer = tf2_ros.Buffer()
+        self._listener = tf2_ros.TransformListener(self._buffer)
+        self._chassis = None
+        self._subscriber = rospy.Subscriber("canbus/chassis", Chassis, self._on_chassis)
+        support.wait_until(lambda: self._chassis is not None, "a message of the chassis")
+        support.wait_until(lambda: self._buffer.can_transform("map", "base_link", rospy.Time()), "the vehicle's pose")
+
+    def _on_chassis(self, chassis):
+        self._chassis = chassis
+
+    @property
+    def chassis(self):
+        return self._chassis
+
+    @property
+    def speed(self):
+        """[m/s], negative in reverse"""
+        return self._chassis.speed_mps
+
+    @property
+    def pose(self):
+        """(x, y, heading)"""
+        transform = self._buffer.lookup_transform("map", "base_link", rospy.Time()).transform
+        q = transform.rotation
+        return transform.translation.x, transform.translation.y, 2.0 * math.atan2(q.z, q.w)
+
+    def wait_until_moving(self):
+        support.wait_until(lambda: abs(self.speed) > 0.5, "the vehicle moves")
+
+    def wait_until_standing(self):
+        support.wait_until(lambda: self.speed == 0.0, "the vehicle stands")
+
+    def ahead(self, *offsets):
+        """Points ahead of the vehicle: each of `offsets` is (forward, to the left) [m]."""
+        x, y, heading = self.pose
+        c, s = math.cos(heading), math.sin(heading)
+        return [Point(x + c * forward - s * left, y + s * forward + c * left, 0.0) for forward, left in offsets]
+
+    def drive_straight(self, length=500.0, **fields):
+        """The id of a motion command that keeps the vehicle driving."""
+        command = PathFollowCommand(way_point=self.ahead((0.0, 0.0), (length, 0.0)), **fields)
+        status = support.service("external_command/path_follow", PathFollow)(command).status
+        assert status.command_id > 0 and status.error_code == 0, support.describe(status)
+        return status.command_id

@@ -1,0 +1,175 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Actions and chassis commands where planner and chassis are silent, or are played by the test."""
+import threading
+import unittest
+
+import rospy
+import rostest
+
+import support
+from external_command.msg import (ActionCommand, Chassis, ChassisCommand, CommandStatus, ControlPad, PlanningState,
+                                  VehicleSignal)
+from external_command.srv import Action, ChassisControl
+
+
+def act(action):
+    return support.service("external_command/action", Action)(ActionCommand(command=action)).status
+
+
+class PlayedChassis:
+    """Reports `mode` 20 times a second. `on_pad(chassis, action)` is called for each ControlPad."""
+
+    def __init__(self, mode, on_pad=None):
+        self.mode = mode
+        self._on_pad = on_pad
+        self._publisher = rospy.Publisher("canbus/chassis", Chassis, queue_size=10)
+        self._pads = rospy.Subscriber("control/pad", ControlPad, self._answer)
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._report)
+
+    def __enter__(self):
+        support.wait_until(lambda: self._publisher.get_num_connections() >= 2, "both processors listen to the chassis")
+        support.wait_until(lambda: self._pads.get_num_connections() > 0, "a publisher of control/pad")
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_):
+        self._stop.set()
+        self._thread.join()
+        self._pads.unregister()
+        self._publisher.unregister()
+
+    def _answer(self, pad):
+        if self._on_pad:
+            self._on_pad(self, pad.action)
+
+    def _report(self):
+        while not self._stop.wait(0.05):
+            self._publisher.publish(Chassis(driving_mode=self.mode))
+
+
+def obey(chassis, action):
+    chassis.mode = Chassis.COMPLETE_AUTO_DRIVE if action == ControlPad.START else Chassis.COMPLETE_MANUAL
+
+
+class WithoutVehicleTest(unittest.TestCase):
+    def setUp(self):
+        self.pads = support.Collector("control/pad", ControlPad)
+
+    def tearDown(self):
+        self.pads.close()
+
+    def start_switch(self, action):
+        """The id of a switch that is RUNNING; waits for the chassis to be heard."""
+        answers = []
+
+        def is_heard():
+            answers.append(act(action))
+            return answers[-1].error_code != CommandStatus.NOT_READY
+
+        support.wait_until(is_heard, "the chassis is heard")
+        self.assertEqual(answers[-1].status, CommandStatus.RUNNING, support.describe(answers[-1]))
+        return answers[-1].command_id
+
+    def test_needs_the_chassis_to_switch_modes(self):
+        def is_refused():
+            return act(ActionCommand.SWITCH_TO_AUTO).error_code == CommandStatus.NOT_READY
+
+        support.wait_until(is_refused, "what was heard of the chassis is too old")
+        status = act(ActionCommand.SWITCH_TO_MANUAL)
+        self.assertEqual(status.status, CommandStatus.ERROR)
+        self.assertEqual(status.error_code, CommandStatus.NOT_READY)
+        self.assertIn("chassis", status.message)
+        self.assertEqual(self.pads.messages, [])
+
+    def test_asks_three_times_for_a_mode(self):
+        with PlayedChassis(Chassis.COMPLETE_AUTO_DRIVE):
+            switch = self.start_switch(ActionCommand.SWITCH_TO_MANUAL)
+            status = support.wait_for_status(switch, CommandStatus.ERROR)
+        self.assertEqual(status.error_code, CommandStatus.REFUSED_BY_VEHICLE, support.describe(status))
+        self.assertIn("COMPLETE_MANUAL 3 of 3 times", status.message)
+        self.assertEqual([pad.action for pad in self.pads.messages], [ControlPad.RESET] * 3)
+        stamps = [pad.header.stamp.to_sec() for pad in self.pads.messages]
+        for before, after in zip(stamps, stamps[1:]):
+            self.assertGreater(after - before, 0.45)
+            self.assertLess(after - before, 1.0)
+
+    def test_brings_the_chassis_to_manual_before_auto(self):
+        with PlayedChassis(Chassis.AUTO_STEER_ONLY, obey):
+            switch = self.start_switch(ActionCommand.SWITCH_TO_AUTO)
+            support.wait_for_status(switch, CommandStatus.FINISHED)
+        self.assertEqual([pad.action for pad in self.pads.messages], [ControlPad.RESET, ControlPad.START])
+
+    def test_never_asks_for_auto_where_manual_is_not_reached(self):
+        with PlayedChassis(Chassis.EMERGENCY_MODE):
+            switch = self.start_switch(ActionCommand.SWITCH_TO_AUTO)
+            support.wait_for_status(switch, CommandStatus.ERROR)
+        self.assertEqual([pad.action for pad in self.pads.messages], [ControlPad.RESET] * 3)
+
+    def test_a_newer_switch_replaces_a_running_one(self):
+        with PlayedChassis(Chassis.COMPLETE_MANUAL) as chassis:
+            first = self.start_switch(ActionCommand.SWITCH_TO_AUTO)
+            second = act(ActionCommand.SWITCH_TO_MANUAL).command_id
+            status = support.wait_for_status(first, CommandStatus.ERROR)
+            self.assertEqual(status.error_code, CommandStatus.SUPERSEDED)
+            self.assertIn(str(second), status.message)
+            support.wait_for_status(second, CommandStatus.FINISHED)
+            self.assertEqual(chassis.mode, Chassis.COMPLETE_MANUAL)
+        # Although the chassis reported manual all the time: it could still have gone into auto.
+        self.assertEqual([pad.action for pad in self.pads.messages], [ControlPad.START, ControlPad.RESET])
+
+    def test_actions_that_nobody_shows_the_end_of_become_unknown(self):
+        sent = {action: act(action).command_id for action in (
+            ActionCommand.FOLLOW, ActionCommand.CHANGE_LEFT, ActionCommand.STOP, ActionCommand.START,
+            ActionCommand.VIN_REQ)}
+        del sent[ActionCommand.STOP]  # superseded by the start
+        for command_id in sent.values():
+            status = support.wait_for_status(command_id, CommandStatus.UNKNOWN)
+            self.assertIn("~timeout", status.message)
+        stop = act(ActionCommand.STOP).command_id
+        self.assertIn("~stop_timeout", support.wait_for_status(stop, CommandStatus.UNKNOWN).message)
+
+    def test_the_planner_may_report_an_action_by_its_id_or_refuse_it(self):
+        reports = rospy.Publisher("planning/command_status", CommandStatus, queue_size=10)
+        states = rospy.Publisher("planning/state", PlanningState, queue_size=10)
+        support.wait_until(lambda: reports.get_num_connections() > 0 and states.get_num_connections() > 0,
+                           "somebody listens to the planner")
+        done, refused, stop = [act(action).command_id for action in (
+            ActionCommand.CHANGE_LEFT, ActionCommand.CHANGE_RIGHT, ActionCommand.STOP)]
+        # Until it is there: a connection may still be new.
+        self.repeat_until_ended(done, lambda: reports.publish(
+            CommandStatus(command_id=done, status=CommandStatus.FINISHED)), CommandStatus.FINISHED)
+        self.repeat_until_ended(refused, lambda: reports.publish(
+            CommandStatus(command_id=refused, status=CommandStatus.ERROR, message="a wall")), CommandStatus.ERROR)
+        self.assertEqual(support.command_status(refused).message, "a wall")
+        self.assertEqual(support.command_status(refused).error_code, CommandStatus.REFUSED_BY_VEHICLE)
+        self.assertEqual(support.command_status(stop).status, CommandStatus.RUNNING)
+
+        def stand():
+            states.publish(PlanningState(scenario="EMERGENCY_STOP"))
+            reports.publish(CommandStatus(command_id=stop, status=CommandStatus.FINISHED))
+
+        self.repeat_until_ended(stop, stand, CommandStatus.FINISHED)
+        states.publish(PlanningState(scenario="IDLE"))
+
+    def repeat_until_ended(self, command_id, publish, wanted):
+        def has_ended():
+            publish()
+            return support.command_status(command_id).status != CommandStatus.RUNNING
+
+        support.wait_until(has_ended, "command %d ends" % command_id)
+        status = support.command_status(command_id)
+        self.assertEqual(status.status, wanted, support.describe(status))
+
+    def test_signals_that_the_chassis_does_not_report_become_unknown(self):
+        command = ChassisCommand(basic_signal=VehicleSignal(horn=VehicleSignal.ON))
+        with PlayedChassis(Chassis.COMPLETE_MANUAL):
+            sent = support.service("external_command/chassis", ChassisControl)(command).status
+            status = support.wait_for_status(sent.command_id, CommandStatus.UNKNOWN)
+        self.assertIn("horn", status.message)
+
+
+if __name__ == "__main__":
+    rospy.init_node("without_vehicle_test")
+    rostest.rosrun("external_command", "without_vehicle", WithoutVehicleTest)

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nodelets/pending_actions.h"
+
+#include <gtest/gtest.h>
+#include <ros/time.h>
+
+#include "external_command/ActionCommand.h"
+#include "external_command/ros/status.h"
+
+namespace external_command {
+namespace {
+
+constexpr std::int64_t kMotion = 77;  // the running motion command
+
+class Actions : public testing::Test {
+ protected:
+  void SetUp() override { ros::Time::init(); }
+
+  PendingActions::Changes report(std::int64_t id, std::uint8_t status, const std::string& message = "ok") {
+    return pending_.onPlannerStatus(makeStatus(id, status, ErrorCode::kOk, message), kMotion);
+  }
+  PendingActions::Changes reportFinished(std::int64_t id) { return report(id, CommandStatus::FINISHED); }
+
+  PendingActions::Changes chassis(double speed, const std::string& vin = "") {
+    Chassis message;
+    message.speed_mps = speed;
+    message.vin = vin;
+    return pending_.onChassis(message);
+  }
+
+  PendingActions pending_{PendingActionParams()};
+};
+
+testing::AssertionResult ended(const PendingActions::Changes& changes, std::int64_t id, std::uint8_t status) {
+  if (changes.size() != 1) return testing::AssertionFailure() << changes.size() << " statuses changed";
+  if (changes[0].command_id == id && changes[0].status == status) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "command " << changes[0].command_id << ", status "
+                                     << static_cast<int>(changes[0].status) << ": " << changes[0].message;
+}
+
+TEST_F(Actions, NeedScenarioAndReportToFinishAStop) {
+  pending_.add(1, ActionCommand::STOP, 0.0);
+  EXPECT_TRUE(pending_.onScenario("EMERGENCY_STOP").empty());
+  EXPECT_TRUE(ended(reportFinished(0), 1, CommandStatus::FINISHED));
+  EXPECT_TRUE(reportFinished(0).empty()) << "it has ended";
+}
+
+TEST_F(Actions, TakeScenarioAndReportInEitherOrder) {
+  pending_.add(1, ActionCommand::PULL_OVER, 0.0);
+  EXPECT_TRUE(reportFinished(0).empty());
+  EXPECT_TRUE(pending_.onScenario("EMERGENCY_STOP").empty()) << "another action's";
+  EXPECT_TRUE(ended(pending_.onScenario("EMERGENCY_PULL_OVER"), 1, CommandStatus::FINISHED));
+}
+
+TEST_F(Actions, TakeReportsAboutAStopUnderItsOwnAndTheMotionCommandsId) {
+  pending_.onScenario("EMERGENCY_STOP");
+  for (const std::int64_t id : {std::int64_t{1}, kMotion}) {
+    pending_.add(1, ActionCommand::STOP, 0.0);
+    EXPECT_TRUE(reportFinished(2).empty()) << "somebody else's";
+    EXPECT_TRUE(report(id, CommandStatus::RUNNING).empty());
+    EXPECT_TRUE(ended(reportFinished(id), 1, CommandStatus::FINISHED));
+  }
+}
+
+TEST_F(Actions, DoNotEndAStopWithAnErrorOfTheMotionCommand) {
+  pending_.add(1, ActionCommand::STOP, 0.0);
+  EXPECT_TRUE(report(kMotion, CommandStatus::ERROR).empty());
+  EXPECT_TRUE(ended(report(1, CommandStatus::ERROR, "no brakes"), 1, CommandStatus::ERROR));
+}
+
+TEST_F(Actions, DoNotTakeTheAcknowledgementOfAnotherActionForTheEndOfAStop) {
+  pending_.add(1, ActionCommand::CHANGE_LEFT, 0.0);
+  pending_.add(2, ActionCommand::STOP, 0.0);
+  EXPECT_TRUE(ended(reportFinished(0), 1, CommandStatus::FINISHED));
+  EXPECT_TRUE(pending_.onScenario("EMERGENCY_STOP").empty()) << "it is still braking";
+  EXPECT_TRUE(ended(reportFinished(0), 2, CommandStatus::FINISHED));
+}
+
+TEST_F(Actions, EndWhatThePlannerTakesNoteOfByReportOrScenario) {
+  pending_.add(1, ActionCommand::CHANGE_LEFT, 0.0);
+  EXPECT_TRUE(ended(reportFinished(1), 1, CommandStatus::FINISHED));
+  pending_.add(2, ActionCommand::ENTER_MISSION, 0.0);
+  EXPECT_TRUE(pending_.onScenario("CHANGE_LEFT").empty());
+  EXPECT_TRUE(ended(pending_.onScenario("ENTER_MISSION"), 2, CommandStatus::FINISHED));
+  pending_.add(3, ActionCommand::CHANGE_RIGHT, 0.0);
+  EXPECT_TRUE(reportFinished(kMotion).empty());
+  const auto changes = report(0, CommandStatus::ERROR, "no lane there");
+  ASSERT_TRUE(ended(changes, 3, CommandStatus::ERROR));
+  EXPECT_EQ(changes[0].error_code, CommandStatus::REFUSED_BY_VEHICLE);
+  EXPECT_EQ(changes[0].message, "no lane there");
+}
+
+TEST_F(Actions, EndAStartWhenTheVehicleMoves) {
+  pending_.add(1, ActionCommand::START, 0.0);
+  EXPECT_TRUE(chassis(0.1).empty());
+  EXPECT_TRUE(reportFinished(0).empty());
+  EXPECT_TRUE(ended(chassis(-0.2), 1, CommandStatus::FINISHED)) << "in reverse it moves as well";
+}
+
+TEST_F(Actions, EndAVinRequestWhenTheChassisTellsIt) {
+  pending_.add(1, ActionCommand::VIN_REQ, 0.0);
+  EXPECT_TRUE(chassis(3.0).empty());
+  EXPECT_TRUE(report(0, CommandStatus::ERROR).empty()) << "not the planner's business";
+  const auto changes = chassis(0.0, "LV123");
+  ASSERT_TRUE(ended(changes, 1, CommandStatus::FINISHED));
+  EXPECT_EQ(changes[0].message, "vin LV123");
+}
+
+TEST_F(Actions, BecomeUnknownWhenNothingShowsTheirEnd) {
+  pending_.add(1, ActionCommand::FOLLOW, 100.0);
+  pending_.add(2, ActionCommand::STOP, 100.0);
+  EXPECT_TRUE(pending_.onTime(129.9).empty());
+  EXPECT_TRUE(ended(pending_.onTime(130.0), 1, CommandStatus::UNKNOWN));
+  EXPECT_TRUE(pending_.onTime(219.9).empty());
+  EXPECT_TRUE(ended(pending_.onTime(220.0), 2, CommandStatus::UNKNOWN));
+}
+
+TEST_F(Actions, LetTheNewestOfStopPullOverAndStartCount) {
+  EXPECT_TRUE(pending_.add(1, ActionCommand::STOP, 0.0).empty());
+  EXPECT_TRUE(pending_.add(2, ActionCommand::FOLLOW, 0.0).empty());
+  EXPECT_TRUE(pending_.add(3, ActionCommand::STOP, 0.0).empty()) << "the same again: both end together";
+  const auto changes = pending_.add(4, ActionCommand::START, 0.0);
+  ASSERT_EQ(changes.size(), 2u);
+  EXPECT_EQ(changes[0].command_id, 1);
+  EXPECT_EQ(changes[1].command_id, 3);
+  EXPECT_EQ(changes[0].error_code, CommandStatus::SUPERSEDED);
+  EXPECT_EQ(changes[0].message, "superseded by command 4, START");
+}
+
+TEST(ActionNames, AreThoseOfTheMessage) {
+  EXPECT_EQ(nameOfAction(ActionCommand::SWITCH_TO_AUTO), "SWITCH_TO_AUTO");
+  EXPECT_EQ(nameOfAction(0), "");
+  EXPECT_EQ(nameOfAction(8), "");
+  EXPECT_NE(knownActions().find("PULL_OVER (4)"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace external_command

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "external_command/ros/status.h"
+
+#include <gtest/gtest.h>
+#include <ros/time.h>
+
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+#include <vector>
+
+#include "external_command/ros/checks.h"
+
+namespace external_command {
+namespace {
+
+TEST(Status, HasTheSameNumbersAsTheErrorCodes) {
+  EXPECT_EQ(static_cast<int>(ErrorCode::kOk), CommandStatus::OK);
+  EXPECT_EQ(static_cast<int>(ErrorCode::kInvalidRequest), CommandStatus::INVALID_REQUEST);
+  EXPECT_EQ(static_cast<int>(ErrorCode::kStaleRequest), CommandStatus::STALE_REQUEST);
+  EXPECT_EQ(static_cast<int>(ErrorCode::kDuplicateId), CommandStatus::DUPLICATE_ID);
+  EXPECT_EQ(static_cast<int>(ErrorCode::kUnknownId), CommandStatus::UNKNOWN_ID);
+  EXPECT_EQ(static_cast<int>(ErrorCode::kNotReady), CommandStatus::NOT_READY);
+  EXPECT_EQ(static_cast<int>(ErrorCode::kOffMap), CommandStatus::OFF_MAP);
+  EXPECT_EQ(static_cast<int>(ErrorCode::kNoRoute), CommandStatus::NO_ROUTE);
+  EXPECT_EQ(static_cast<int>(ErrorCode::kStartBlocked), CommandStatus::START_BLOCKED);
+  EXPECT_EQ(static_cast<int>(ErrorCode::kGoalBlocked), CommandStatus::GOAL_BLOCKED);
+  EXPECT_EQ(static_cast<int>(ErrorCode::kNoPath), CommandStatus::NO_PATH);
+  EXPECT_EQ(static_cast<int>(ErrorCode::kPlanningTimeout), CommandStatus::PLANNING_TIMEOUT);
+  EXPECT_EQ(static_cast<int>(ErrorCode::kCancelled), CommandStatus::CANCELLED);
+  EXPECT_EQ(static_cast<int>(ErrorCode::kSuperseded), CommandStatus::SUPERSEDED);
+  EXPECT_EQ(static_cast<int>(ErrorCode::kRefusedByVehicle), CommandStatus::REFUSED_BY_VEHICLE);
+  EXPECT_EQ(static_cast<int>(ErrorCode::kInternalError), CommandStatus::INTERNAL_ERROR);
+}
+
+CommandStatus statusOfThrown(const std::function<void()>& thrower) {
+  ros::Time::init();
+  try {
+    thrower();
+  } catch (...) {
+    return statusFrom(std::current_exception(), 3);
+  }
+  return {};
+}
+
+TEST(Status, KeepsCodeAndTextOfAnError) {
+  const auto status = statusOfThrown([] { throw NoRoute("no way"); });
+  EXPECT_EQ(status.command_id, 3);
+  EXPECT_EQ(status.status, CommandStatus::ERROR);
+  EXPECT_EQ(status.error_code, CommandStatus::NO_ROUTE);
+  EXPECT_EQ(status.message, "no way");
+}
+
+TEST(Status, MakesAnyOtherExceptionAnInternalError) {
+  EXPECT_EQ(statusOfThrown([] { throw std::out_of_range("vector"); }).error_code, CommandStatus::INTERNAL_ERROR);
+  EXPECT_EQ(statusOfThrown([] { throw 5; }).error_code, CommandStatus::INTERNAL_ERROR);
+}
+
+std::string refusalOf(const std::function<void()>& check) {
+  try {
+    check();
+  } catch (const InvalidRequest& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Checks, AcceptWhatIsInRange) {
+  EXPECT_NO_THROW(requireFinite(1.0, "x"));
+  EXPECT_NO_THROW(requireNotNegative(0.0, "target_speed"));
+  EXPECT_NO_THROW(requireWithin(0.5, 0.0, 1.0, "target_speed_factor"));
+  EXPECT_NO_THROW(checkWayPoints({}, false));
+}
+
+TEST(Checks, NameFieldValueAndExpectation) {
+  EXPECT_EQ(refusalOf([] { requireNotNegative(-2.0, "target_speed"); }), "target_speed is -2; it must not be negative");
+  EXPECT_EQ(refusalOf([] { requireWithin(1.5, 0.0, 1.0, "target_speed_factor"); }),
+            "target_speed_factor is 1.5; it must lie in [0, 1]");
+  EXPECT_NE(refusalOf([] { requireWithin(std::nan(""), 0.0, 1.0, "factor"); }), "");
+  Pose pose;
+  pose.y = std::nan("");
+  EXPECT_EQ(refusalOf([&] { checkWayPoints({Pose(), pose}, false); }), "way_point[1].y is nan; it must be finite");
+  EXPECT_NE(refusalOf([] { checkWayPoints({}, true); }).find("is_start_pose_set"), std::string::npos);
+  EXPECT_NE(refusalOf([] { checkWayPoints(std::vector<Pose>(1001), false); }).find("1001"), std::string::npos);
+}
+
+TEST(Checks, DoNotLookAtAHeadingThatIsNotGiven) {
+  Pose pose;
+  pose.heading = std::nan("");
+  EXPECT_NO_THROW(requireFinite(pose, "end_pose"));
+  pose.has_heading = true;
+  EXPECT_THROW(requireFinite(pose, "end_pose"), InvalidRequest);
+}
+
+}  // namespace
+}  // namespace external_command

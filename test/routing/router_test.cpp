@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "external_command/routing/router.h"
+
+#include <gtest/gtest.h>
+
+#include "support/map_builder.h"
+#include "support/route_matchers.h"
+#include "support/routing_world.h"
+
+namespace external_command {
+namespace {
+
+///   a -----> b -----> c      a ring of 100 m per lane: c leads back to a, and a dead end d leads off b
+///                \--> d
+class Ring : public RoutingWorld {
+ protected:
+  Ring() {
+    builder.lane("a", {0, 0}, {100, 0})
+        .lane("b", {100, 0}, {100, 100})
+        .lane("c", std::vector<Point2d>{{100, 100}, {50, 50}, {0, 0}})
+        .lane("d", {100, 100}, {200, 100})
+        .follow({"a", "b", "c", "a"})
+        .follow({"b", "d"});
+  }
+};
+
+TEST_F(Ring, DrivesAlongOneLane) {
+  const Route route = drive({"a", 10}, {"a", 90});
+  EXPECT_EQ(ids(route), "a");
+  EXPECT_NEAR(route.distance, 80.0, 1e-9);
+}
+
+TEST_F(Ring, DrivesOntoTheSuccessors) {
+  const Route route = drive({"a", 10}, {"d", 50});
+  EXPECT_EQ(ids(route), "a b d");
+  EXPECT_NEAR(route.distance, 90.0 + 100.0 + 50.0, 1e-9);
+}
+
+TEST_F(Ring, StaysWhereTheGoalIsTheStart) {
+  const Route route = drive({"a", 10}, {"a", 10});
+  EXPECT_EQ(ids(route), "a");
+  EXPECT_EQ(route.distance, 0.0);
+}
+
+TEST_F(Ring, DrivesALoopToAGoalBehindTheStart) {
+  const Route route = drive({"a", 60}, {"a", 40});
+  EXPECT_EQ(ids(route), "a b c a");
+  EXPECT_NEAR(route.distance, 40.0 + 100.0 + 100.0 * std::sqrt(2.0) + 40.0, 1e-9);
+}
+
+TEST_F(Ring, TakesAGoalLessThanAMillimetreBehindTheStartAsReached) {
+  EXPECT_NEAR(drive({"a", 60.0005}, {"a", 60}).distance, 0.0, 1e-3);
+}
+
+TEST_F(Ring, RefusesAGoalBehindTheStartWithoutALoop) {
+  EXPECT_THAT_REFUSED(drive({"d", 60}, {"d", 40}), NoRoute,
+                      "no route from start (lane d at 60.00 m) to goal (lane d at 40.00 m)");
+}
+
+TEST_F(Ring, SaysHowManyLanesWereReached) {
+  EXPECT_THAT_REFUSED(drive({"d", 60}, {"a", 0}), NoRoute, "1 lanes of 4 were reached");
+}
+
+TEST_F(Ring, PassesWayPointsInOrder) {
+  const Route route = drive({"a", 10}, {{{"c", 20}}, {{"b", 20}}}, {"c", 30});
+  EXPECT_EQ(ids(route), "a b c a b c");
+}
+
+TEST_F(Ring, PassesAWayPointAtTheStart) {
+  EXPECT_NEAR(drive({"a", 10}, {{{"a", 10}}}, {"a", 30}).distance, 20.0, 1e-9);
+}
+
+TEST_F(Ring, NamesTheLegThatCannotBeDriven) {
+  EXPECT_THAT_REFUSED(drive({"a", 10}, {{{"b", 20}}, {{"d", 20}}}, {"a", 30}), NoRoute,
+                      "from way_point[1] (lane d at 20.00 m) to goal (lane a at 30.00 m)");
+}
+
+TEST_F(Ring, TakesTheStartAndTheGoalWithTheShortestRoute) {
+  const Route route = search({{point("a", 10), point("b", 50)}, {}, {point("c", 100), point("d", 70)}, {}});
+  EXPECT_EQ(route.start, 1u);
+  EXPECT_EQ(route.goal, 1u);
+  EXPECT_NEAR(route.distance, 50.0 + 70.0, 1e-9);
+}
+
+TEST_F(Ring, TakesTheWayPointThatIsBestForTheWholeRouteNotForItsLeg) {
+  // The nearer candidate lies on the dead end.
+  EXPECT_EQ(ids(drive({"b", 10}, {{{"d", 1}, {"c", 10}}}, {"a", 20})), "b c a");
+}
+
+TEST_F(Ring, ChecksTheRequest) {
+  EXPECT_THAT_REFUSED(search({{}, {}, {point("a", 1)}, {}}), InvalidRequest, "the route has no start");
+  EXPECT_THAT_REFUSED(search({{point("a", 1)}, {}, {}, {}}), InvalidRequest, "the route has no goal");
+  EXPECT_THAT_REFUSED(search({{point("a", 1)}, {{}}, {point("a", 1)}, {}}), InvalidRequest, "no way_point[0]");
+  EXPECT_THAT_REFUSED(drive({"a", -0.1}, {"b", 1}), InvalidRequest, "start has s -0.1 on lane a");
+  EXPECT_THAT_REFUSED(drive({"a", 1}, {"b", 100.1}), InvalidRequest, "goal has s 100.1 on lane b");
+  EXPECT_THAT_REFUSED(drive({"a", NAN}, {"b", 1}), InvalidRequest, "start has s nan");
+  EXPECT_THAT_REFUSED(search({{{17, 1.0}}, {}, {point("a", 1)}, {}}), InvalidRequest, "the map has 4 lanes");
+}
+
+TEST_F(Ring, StopsWhenCancelled) {
+  CancelSource source;
+  source.cancel();
+  EXPECT_THROW(router().findRoute({{point("a", 1)}, {}, {point("c", 1)}, {}}, source.token()), Cancelled);
+}
+
+TEST_F(Ring, DrivesOnlyWhatIsForDriving) {
+  builder["c"].type = LaneType::kBiking;
+  EXPECT_THAT_REFUSED(drive({"b", 1}, {"a", 1}), NoRoute, "no route");
+  EXPECT_THAT_REFUSED(drive({"c", 1}, {"a", 1}), InvalidRequest, "lane c, which is not for driving");
+}
+
+TEST_F(Ring, DrivesLanesOfBothDirectionsForwardAndBackwardOnesNotAtAll) {
+  builder["c"].direction = LaneDirection::kBidirection;
+  EXPECT_EQ(ids(drive({"b", 1}, {"a", 1})), "b c a");
+  builder["c"].direction = LaneDirection::kBackward;
+  EXPECT_THAT_REFUSED(drive({"b", 1}, {"a", 1}), NoRoute, "no route");
+}
+
+TEST_F(Ring, GoesAroundNothingWhenTheBlackListCutsTheOnlyWay) {
+  EXPECT_THAT_REFUSED(drive({"a", 10}, {}, {"c", 50}, {{"b", 40, 60}}), NoRoute,
+                      "the black list cuts it at lane b; without the black list there is a route");
+  EXPECT_EQ(ids(drive({"a", 10}, {}, {"c", 50}, {{"d", 0, 100}})), "a b c");
+}
+
+TEST_F(Ring, MayDriveUpToAndFromBehindABlackListedPart) {
+  EXPECT_EQ(ids(drive({"a", 10}, {}, {"b", 39}, {{"b", 40, 60}})), "a b");
+  EXPECT_EQ(ids(drive({"b", 61}, {}, {"a", 10}, {{"b", 40, 60}})), "b c a");
+}
+
+TEST_F(Ring, RefusesToStartOrEndOnABlackListedPart) {
+  EXPECT_THAT_REFUSED(drive({"b", 40}, {}, {"c", 50}, {{"b", 40, 60}}), NoRoute, "the black list covers the start");
+  EXPECT_THAT_REFUSED(drive({"a", 40}, {}, {"b", 60}, {{"b", 40, 60}}), NoRoute, "the black list covers the goal");
+}
+
+TEST_F(Ring, SkipsCandidatesOnABlackListedPart) {
+  const Route route =
+      search({{point("b", 50), point("a", 90)}, {}, {point("b", 45), point("b", 30)}, {range("b", 40, 55)}});
+  EXPECT_EQ(route.start, 1u);
+  EXPECT_EQ(route.goal, 1u);
+  EXPECT_EQ(ids(route), "a b");
+}
+
+TEST_F(Ring, RefusesParametersOutOfRange) {
+  params.min_lane_change_length = 0.0;
+  EXPECT_THAT_REFUSED(Router(builder.build(), params), InvalidParameter, "min_lane_change_length is 0");
+  EXPECT_THAT_REFUSED(Router(nullptr, RouterParams()), NotReady, "no map");
+}
+
+}  // namespace
+}  // namespace external_command

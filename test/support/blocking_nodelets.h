@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nodelet/nodelet.h>
+#include <ros/callback_queue.h>
+
+#include <boost/make_shared.hpp>
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include "external_command/PathFollow.h"
+#include "external_command/ros/motion_command_processor.h"
+
+namespace external_command {
+
+/// Keeps those who pass it until the test opens it. Thread-safe.
+class TestGate {
+ public:
+  /// Returns once the gate is open, or `gives_up()` is true.
+  void pass(const std::function<bool()>& gives_up) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    ++entered_;
+    changed_.notify_all();
+    // What makes it give up notifies nobody, so it is looked at often.
+    while (!is_open_ && !gives_up()) changed_.wait_for(lock, std::chrono::milliseconds(1));
+    ++left_;
+    changed_.notify_all();
+  }
+
+  void open() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_open_ = true;
+    changed_.notify_all();
+  }
+
+  /// False where fewer than `count` have come within 10 s.
+  bool waitForEntered(unsigned count) {
+    return waitFor([this, count] { return entered_ >= count; });
+  }
+  bool waitForLeft(unsigned count) {
+    return waitFor([this, count] { return left_ >= count; });
+  }
+
+  unsigned entered() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return entered_;
+  }
+
+ private:
+  bool waitFor(const std::function<bool()>& condition) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    return changed_.wait_for(lock, std::chrono::seconds(10), condition);
+  }
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  unsigned entered_ = 0, left_ = 0;
+  bool is_open_ = false;
+};
+
+/// Occupies the worker threads of the manager that it is loaded into.
+class WorkerBlocker : public nodelet::Nodelet {
+ public:
+  /// As many jobs as that, each of which passes `gate`.
+  void block(const std::shared_ptr<TestGate>& gate, unsigned jobs) {
+    for (unsigned i = 0; i < jobs; ++i) getMTCallbackQueue().addCallback(boost::make_shared<Job>(gate));
+  }
+
+ private:
+  class Job : public ros::CallbackInterface {
+   public:
+    explicit Job(std::shared_ptr<TestGate> gate) : gate_(std::move(gate)) {}
+    CallResult call() override {
+      gate_->pass([] { return false; });
+      return Success;
+    }
+
+   private:
+    const std::shared_ptr<TestGate> gate_;
+  };
+
+  void onInit() override {}
+};
+
+/// A motion command whose planning lasts until the test opens its gate.
+class BlockingPlanner : public MotionCommandProcessor<PathFollow> {
+ public:
+  static constexpr const char* kService = "test/plan";
+
+  BlockingPlanner() : MotionCommandProcessor<PathFollow>(kService) {}
+  ~BlockingPlanner() override { stopServing(); }
+
+  /// The gate of the plans that begin from now on.
+  /// @param polls_cancel  false: a planner that does not notice that it is cancelled.
+  std::shared_ptr<TestGate> holdPlans(bool polls_cancel) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    gate_ = std::make_shared<TestGate>();
+    polls_cancel_ = polls_cancel;
+    return gate_;
+  }
+
+ private:
+  void check(const PathFollowCommand& /*command*/) const override {}
+
+  void processSpecialCommand(const PathFollowCommand& /*command*/, const CancelToken& cancel,
+                             MotionPlan* plan) override {
+    std::unique_lock<std::mutex> lock(mutex_);
+    const auto gate = gate_;
+    const bool polls_cancel = polls_cancel_;
+    lock.unlock();
+    gate->pass([&] { return polls_cancel && cancel.isCancelled(); });
+    if (polls_cancel) cancel.throwIfCancelled();
+    plan->path.resize(2);
+    plan->path[1].x = 10.0;
+    setArcLengths(&plan->path);
+  }
+
+  std::mutex mutex_;
+  std::shared_ptr<TestGate> gate_ = std::make_shared<TestGate>();
+  bool polls_cancel_ = true;
+};
+
+}  // namespace external_command
