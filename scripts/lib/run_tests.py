@@ -1,0 +1,184 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Runs the test programs that CMake knows of, and counts their cases.
+
+One line per program, the failures' texts at the end, and as the very last line `N passed, N failed`.
+"""
+import argparse
+import glob
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import List
+
+import owned_processes
+from test_results import Counts, count_program
+
+# Seconds after which a program counts as hanging.
+TIMEOUT = float(os.environ.get("EC_TEST_TIMEOUT", "300"))
+# What needs no ROS master may run side by side; the others measure times, and the whole machine is theirs.
+SIDE_BY_SIDE = ("gtest", "unittest", "roslaunch-check")
+
+
+@dataclass
+class Program:
+    kind: str  # gtest, rostest, ...
+    name: str
+    command: List[str]
+    result_file: str
+
+    @property
+    def title(self):
+        return f"{self.kind} {self.name}"
+
+
+def list_programs(build_dir):
+    """Those of this package, and of the examples that are built in examples/ of the build folder."""
+    programs = _programs_of(build_dir, "external_command", "")
+    for folder in sorted(glob.glob(os.path.join(build_dir, "examples", "*"))):
+        package = os.path.basename(folder)
+        programs += _programs_of(folder, package, package + "/")
+    return programs
+
+
+def _programs_of(build_dir, package, prefix):
+    """catkin registers each test with ctest; the command ends in `run_tests.py RESULT_FILE ... COMMAND`."""
+    listing = json.loads(subprocess.check_output(["ctest", "--show-only=json-v1"], cwd=build_dir))
+    return [_program(test, package, prefix) for test in listing["tests"]]
+
+
+def _program(test, package, prefix):
+    command = test["command"]
+    wrapper = next(index for index, word in enumerate(command) if word.endswith("/run_tests.py"))
+    _, _, rest = test["name"].partition(f"_ctest_{package}_")
+    kind, _, name = rest.partition("_")
+    return Program(kind, prefix + name, command, command[wrapper + 1])
+
+
+def select(programs, words):
+    """The programs whose title contains one of the words; all where there are none."""
+    chosen = [program for program in programs if not words or any(word in program.title for word in words)]
+    return sorted(chosen, key=lambda program: (program.kind not in SIDE_BY_SIDE, program.title))
+
+
+class Runner:
+    def __init__(self, build_dir):
+        self._log_dir = os.path.join(build_dir, "test_logs")
+        os.makedirs(self._log_dir, exist_ok=True)
+        self._live_marks = set()
+        self._is_stopped = False
+
+    def stop(self):
+        """Ends what is running, from whichever thread; nothing is started any more."""
+        self._is_stopped = True
+        for mark in list(self._live_marks):
+            owned_processes.end_all(mark)
+
+    def run(self, program):
+        """Runs one program to its end, or to the time-out; leaves none of its processes. Returns its Counts."""
+        if self._is_stopped:
+            return Counts()
+        started = time.time()
+        mark = owned_processes.new_mark()
+        log_file = os.path.join(self._log_dir, program.title.replace(" ", "-").replace("/", "-") + ".log")
+        exit_code = self._execute(program, mark, log_file)
+        if exit_code is None:
+            counts = Counts(failures=[f"no end after {TIMEOUT:.0f} s\n{_tail(log_file, 40)}"])
+        else:
+            counts = count_program(program.result_file, self._sub_results(program, started), exit_code)
+        if exit_code not in (None, 0, 1):  # a crash: its last words say more than the missing results
+            counts.failures[-1] += f"\n{_tail(log_file)}"
+        seconds = time.time() - started
+        verdict = "FAIL" if counts.failures else "ok  "
+        print(f"{verdict} {program.title:<60} {counts.text()}  ({seconds:.1f} s)", flush=True)
+        counts.failures = [f"{program.title}: {text}\n  (output: {log_file})" for text in counts.failures]
+        counts.skipped = [f"{program.title}: {text}" for text in counts.skipped]
+        return counts
+
+    def _execute(self, program, mark, log_file):
+        """Returns the exit code, or None after a time-out."""
+        environment = owned_processes.marked_environment(mark, ROS_LOG_DIR=self._log_dir + "/ros",
+                                                         ROS_HOSTNAME="localhost")
+        self._live_marks.add(mark)
+        with open(log_file, "wb") as log:
+            process = subprocess.Popen(program.command, env=environment, stdin=subprocess.DEVNULL, stdout=log,
+                                       stderr=subprocess.STDOUT, start_new_session=True)
+            try:
+                return process.wait(TIMEOUT)
+            except subprocess.TimeoutExpired:
+                return None
+            finally:
+                owned_processes.end_all(mark)
+                process.wait()
+                self._live_marks.discard(mark)
+
+    @staticmethod
+    def _sub_results(program, started):
+        """Files that rostest's test nodes wrote since the start, beside rostest's own."""
+        if program.kind != "rostest":
+            return []
+        folder = os.path.dirname(program.result_file)
+        paths = [os.path.join(folder, name) for name in sorted(os.listdir(folder)) if name.startswith("rosunit-")]
+        return [path for path in paths if os.path.getmtime(path) >= started]
+
+
+def _tail(path, lines=20):
+    with open(path, encoding="utf-8", errors="replace") as file:
+        return "".join(file.readlines()[-lines:]).rstrip()
+
+
+def run_all(programs, runner, jobs):
+    total = Counts()
+    side_by_side = [program for program in programs if program.kind in SIDE_BY_SIDE]
+    with ThreadPoolExecutor(jobs) as pool:
+        try:
+            for counts in pool.map(runner.run, side_by_side):
+                total.add(counts)
+        except BaseException:  # Ctrl-C; the pool waits for its workers
+            runner.stop()
+            raise
+    for program in programs:
+        if program.kind not in SIDE_BY_SIDE:
+            total.add(runner.run(program))
+    return total
+
+
+def report(total):
+    for heading, texts in (("skipped", total.skipped), ("failed", total.failures)):
+        if texts:
+            print(f"\n--- {heading} ---")
+            print("\n".join(texts))
+    print(f"\n{total.passed} passed, {len(total.failures)} failed", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("build_dir", type=os.path.abspath)
+    parser.add_argument("names", nargs="*", help="only programs whose kind and name contain one of these words")
+    parser.add_argument("--list", action="store_true", help="print the programs and stop")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="programs that run side by side")
+    args = parser.parse_args()
+    programs = select(list_programs(args.build_dir), args.names)
+    if args.list:
+        print("\n".join(program.title for program in programs))
+        return 0
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell ignores it in background jobs, for children too
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
+    try:
+        total = run_all(programs, Runner(args.build_dir), args.jobs)
+    except KeyboardInterrupt:
+        print("interrupted", file=sys.stderr)
+        return 130
+    if not programs:
+        total.failures.append(f"no test program matches {' '.join(args.names) or 'anything'}")
+    report(total)
+    return 1 if total.failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

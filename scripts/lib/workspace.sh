@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash
+# Environment and build of this package in build/ of the checkout, shared by all scripts. To be sourced.
+#
+# A script that needs a built executable of this package is these lines:
+#
+#   set -eu
+#   source "$(dirname "$(readlink --canonicalize "$0")")/lib/workspace.sh"
+#   ec_install                          # what is missing of the system packages
+#   ec_build coverage_benchmark         # make targets; with none: all but tests and benchmarks
+#   ec_environment                      # ROS, and this package's own setup.bash
+#   "$(ec_executable coverage_benchmark)" "$@"
+#
+# `ec_has_target NAME` tells whether there is such a make target. EC_BUILD_DIR sets another build folder,
+# EC_CMAKE_ARGS more arguments for cmake, EC_JOBS the number of compilers at once.
+
+EC_ROOT=$(readlink --canonicalize "$(dirname "${BASH_SOURCE[0]}")/../..")
+EC_BUILD_DIR=${EC_BUILD_DIR:-$EC_ROOT/build}
+EC_UNDERLAY=/opt/ros/noetic/setup.bash  # of the workspace to build on; Debian's ROS has none
+
+ec_fail() {
+  echo "error: $*" >&2
+  exit 1
+}
+
+# shellcheck source=scripts/lib/packages.sh
+source "$EC_ROOT/scripts/lib/packages.sh"
+
+# ROS and catkin are written for the system's python3, which need not be the first on the PATH.
+export PATH="/usr/bin:$PATH"
+# Message code for Lisp, EusLisp and JavaScript is of no use here and takes half of the generation's time.
+export ROS_LANG_DISABLE=${ROS_LANG_DISABLE:-genlisp:geneus:gennodejs}
+
+# Makes ROS known to this shell and, once built, this package.
+ec_environment() {
+  ec_source "$EC_UNDERLAY"
+  ec_source "$EC_BUILD_DIR/devel/setup.bash"
+}
+
+# Sources a catkin setup file if there is one. Such files use unset variables, and read the arguments.
+ec_source() {
+  [ -f "$1" ] || return 0
+  local setup_file=$1
+  set --
+  set +u
+  # shellcheck disable=SC1090
+  source "$setup_file"
+  set -u
+}
+
+# One compiler per core, and no more than memory holds: a translation unit with OMPL or roscpp takes up to 1.5 GB.
+ec_jobs() {
+  local by_memory
+  by_memory=$(awk '/^MemAvailable/ { print int($2 / 1500000) }' /proc/meminfo)
+  local cores
+  cores=$(nproc)
+  local jobs=$((by_memory < cores ? by_memory : cores))
+  echo "${EC_JOBS:-$((jobs > 0 ? jobs : 1))}"
+}
+
+# ec_build [TARGET...]: configures and builds; two scripts at a time wait for each other.
+ec_build() {
+  mkdir -p "$EC_BUILD_DIR"
+  (
+    flock 9
+    ec_source "$EC_UNDERLAY"
+    ec_configure
+    cmake --build "$EC_BUILD_DIR" --parallel "$(ec_jobs)" --target "${@:-all}" -- --no-print-directory
+  ) 9>"$EC_BUILD_DIR/.lock" || exit 1
+}
+
+# Configures quietly; cmake's output is kept in a file, and shown when it fails.
+ec_configure() {
+  local log=$EC_BUILD_DIR/configure.log
+  # shellcheck disable=SC2086  # EC_CMAKE_ARGS is a list of words
+  cmake -S "$EC_ROOT" -B "$EC_BUILD_DIR" -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 \
+    ${EC_CMAKE_ARGS-} >"$log" 2>&1 || { cat "$log" >&2 && ec_fail "cmake could not configure $EC_ROOT (see above)"; }
+}
+
+# Installs this package into install/ of the build folder, and builds each package of examples/, with its tests, on that.
+ec_build_examples() {
+  local prefix=$EC_BUILD_DIR/install
+  EC_CMAKE_ARGS="${EC_CMAKE_ARGS-} -DCMAKE_INSTALL_PREFIX=$prefix" ec_build install >"$EC_BUILD_DIR/install.log"
+  local example
+  for example in $(ec_examples); do
+    EC_ROOT=$EC_ROOT/examples/$example EC_BUILD_DIR=$(ec_example_build_dir "$example") \
+      EC_UNDERLAY=$prefix/setup.bash ec_build all tests
+  done
+}
+
+# Prints the names of the packages in examples/.
+ec_examples() { (cd "$EC_ROOT/examples" && printf '%s\n' */ | tr --delete /); }
+
+ec_example_build_dir() { echo "$EC_BUILD_DIR/examples/$1"; }
+
+# Is there a make target of this name? To be asked after a build.
+ec_has_target() { cmake --build "$EC_BUILD_DIR" --target help | grep --quiet --line-regexp "\.\.\. $1"; }
+
+# Prints the path of an executable of this package.
+ec_executable() {
+  local path=$EC_BUILD_DIR/devel/lib/external_command/$1
+  [ -x "$path" ] || ec_fail "$path is not built; is $1 a target of CMakeLists.txt?"
+  echo "$path"
+}
