@@ -15,6 +15,7 @@ from demo_stack import DemoError, Stack
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(__file__), "..", ".."))
 DEMO_MAP = os.path.join(ROOT, "maps/demo_town/base_map.bin")  # around (0, 0): needs no origin
+DEMO_ROUTE = ([90.0, 195.0, 0.0], [510.0, 205.0])  # from west to east: a lane change, a roundabout, bends
 
 
 def numbers(count, what):
@@ -48,7 +49,7 @@ def parse_arguments(words):
     parser.add_argument("--from", dest="start", type=numbers(3, "X,Y,HEADING"), metavar="X,Y,HEADING",
                         help="where the vehicle stands [m, m, rad], in the map file's coordinates")
     parser.add_argument("--to", dest="goal", type=numbers(2, "X,Y"), metavar="X,Y", help="where it drives to [m]; "
-                        "without --from and --to, the longest route between some lanes far apart")
+                        "without --from and --to, a long route of the map")
     parser.add_argument("--speed-up", type=float, default=4.0, metavar="N", help="simulated seconds per second; 4")
     parser.add_argument("--picture", type=os.path.abspath, metavar="FILE",
                         help="where the picture of rviz goes; default: demo.png in the build folder")
@@ -63,6 +64,8 @@ def parse_arguments(words):
         parser.error(f"--speed-up is {args.speed_up}; it must be above 0")
     if not args.stop and not os.path.isfile(args.map):
         parser.error(f"there is no map file {args.map}")
+    if args.map == DEMO_MAP and not args.start:
+        args.start, args.goal = DEMO_ROUTE
     args.picture = args.picture or os.path.join(args.build_dir, "demo.png")
     return args
 
@@ -145,6 +148,7 @@ def main():
         return 130
     finally:
         if not is_kept:
+            signal.signal(signal.SIGINT, signal.SIG_IGN)  # a second Ctrl-C must not leave anything behind
             stack.end()
 
 

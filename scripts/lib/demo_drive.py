@@ -3,6 +3,7 @@
 import itertools
 import math
 import random
+import threading
 import time
 
 import numpy
@@ -139,16 +140,17 @@ class Drive:
         self.command_id = answer.command_id
         progress = Progress(self._stack.wait_for(lambda: self._path, "the path", 10.0))
         half_way = progress.left / 2.0
-        while True:
+        photographer = threading.Thread(target=take_picture, daemon=True)  # the vehicle does not wait for it
+        is_over = False
+        while not is_over:
             status = self._wait_for_news(progress)
             is_over = status.status in (CommandStatus.FINISHED, CommandStatus.ERROR)
             print(f"  {progress.left:7.1f} m to go, {self._speed:5.1f} m/s  {STATUS_NAMES[status.status]} "
                   f"{status.message}", flush=True)
-            if is_over or progress.left < half_way:
-                half_way = -1.0
-                take_picture()
-            if is_over:
-                return status.status == CommandStatus.FINISHED
+            if photographer.ident is None and (is_over or progress.left < half_way):
+                photographer.start()
+        photographer.join()
+        return status.status == CommandStatus.FINISHED
 
     def _wait_for_news(self, progress):
         """The command's status, after a second or when the command has ended."""
@@ -189,10 +191,11 @@ class Progress:
         self.left = self._left[0]  # [m]
 
     def update(self, position):
-        """Takes the nearest point of the next 50 m; a path may meet itself further on."""
+        """Takes the nearest of the next points; a path may meet itself further on."""
         if position is None:
             return
-        ahead = numpy.searchsorted(-self._left, -(self.left - 50.0), side="right")
+        reach = 20.0 + 2.0 * math.hypot(*(position - self._points[self._index]))
+        ahead = numpy.searchsorted(-self._left, reach - self.left, side="right")
         distances = numpy.hypot(*(self._points[self._index:max(ahead, self._index + 1)] - position).T)
         step = int(numpy.argmin(distances))
         if step > 0:

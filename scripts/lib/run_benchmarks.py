@@ -23,6 +23,8 @@ def executable(build_dir, name):
 
 def measure(name, command, timeout):
     """The measurements of one program, each with its name; a program that fails is a measurement with `error`."""
+    if not os.path.exists(command[0]):
+        return [{"benchmark": name, "error": f"{command[0]} is not built"}]
     result = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, timeout=timeout, check=False)
     output = result.stdout.decode()
     try:

@@ -2,10 +2,10 @@
 #include "external_command/core/polygon.h"
 
 #include <algorithm>
-#include <boost/geometry.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/geometries/polygon.hpp>
 #include <limits>
+#include <numeric>
+#include <optional>
+#include <utility>
 
 #include "external_command/core/error.h"
 #include "external_command/core/text.h"
@@ -14,11 +14,9 @@ namespace external_command {
 
 namespace {
 
-namespace bg = boost::geometry;
-using BoostPolygon = bg::model::polygon<bg::model::d2::point_xy<double>, false, true>;
-
-constexpr double kMinEdge = 1e-3;  // [m]
-constexpr double kMinArea = 1e-4;  // [m^2]
+constexpr double kMinEdge = 1e-3;   // [m]
+constexpr double kTouching = 1e-6;  // [m]
+constexpr double kMinArea = 1e-4;   // [m^2]
 
 double signedArea(const std::vector<Point2d>& points) {
   double twice = 0.0;  // relative to the first point: UTM coordinates would eat the digits
@@ -28,54 +26,51 @@ double signedArea(const std::vector<Point2d>& points) {
   return twice / 2.0;
 }
 
-bool segmentsMeet(const Point2d& a, const Point2d& b, const Point2d& c, const Point2d& d) {
-  const auto nearer = [](const Point2d& p, const Point2d& q, const Point2d& r) {
-    return (p - nearestOnSegment(p, q, r)).squaredNorm() < 1e-12;
-  };
-  if (nearer(a, c, d) || nearer(b, c, d) || nearer(c, a, b) || nearer(d, a, b)) return true;
+bool isOn(const Point2d& point, const Point2d& a, const Point2d& b) {
+  return (point - nearestOnSegment(point, a, b)).squaredNorm() < kTouching * kTouching;
+}
+
+/// True where the edges that begin at the vertices `i` and `j` have more in common than a vertex that is both's.
+bool edgesMeet(const std::vector<Point2d>& points, std::size_t i, std::size_t j) {
+  const std::size_t n = points.size();
+  const Point2d &a = points[i], &b = points[(i + 1) % n], &c = points[j], &d = points[(j + 1) % n];
+  if ((a.cwiseMin(b).array() > c.cwiseMax(d).array() + kTouching).any()) return false;
+  if ((c.cwiseMin(d).array() > a.cwiseMax(b).array() + kTouching).any()) return false;
+  if ((i + 1) % n == j) return isOn(a, c, d) || isOn(d, a, b);
+  if ((j + 1) % n == i) return isOn(c, a, b) || isOn(b, c, d);
+  if (isOn(a, c, d) || isOn(b, c, d) || isOn(c, a, b) || isOn(d, a, b)) return true;
   return cross(b - a, c - a) * cross(b - a, d - a) < 0.0 && cross(d - c, a - c) * cross(d - c, b - c) < 0.0;
 }
 
-/// Names the first pair of edges that meet; only called for polygons already known to be invalid. O(n^2), therefore not
-/// for large ones.
-std::string whereItCrossesItself(const std::vector<Point2d>& points) {
-  constexpr std::size_t kMaxSize = 2000;
+/// Two edges that meet, by their first vertices; nullopt for a simple polygon. Sweeps along the axis that the edges are
+/// shorter in and compares those that overlap there: O(n log n) unless most of them do.
+std::optional<std::pair<std::size_t, std::size_t>> meetingEdges(const std::vector<Point2d>& points) {
   const std::size_t n = points.size();
-  if (n > kMaxSize) return "";
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = i + 2; j < n; ++j) {
-      if (i == 0 && j == n - 1) continue;
-      if (segmentsMeet(points[i], points[i + 1], points[j], points[(j + 1) % n])) {
-        return text(": the edge from vertex ", i, " ", at(points[i]), " meets the edge from vertex ", j, " ",
-                    at(points[j]));
-      }
+  Point2d extent = Point2d::Zero();
+  for (std::size_t i = 0; i < n; ++i) extent += (points[(i + 1) % n] - points[i]).cwiseAbs();
+  const int axis = extent.x() < extent.y() ? 0 : 1;
+  const auto low = [&](std::size_t i) { return std::min(points[i][axis], points[(i + 1) % n][axis]); };
+  const auto high = [&](std::size_t i) { return std::max(points[i][axis], points[(i + 1) % n][axis]); };
+  std::vector<std::size_t> order(n), open;
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return low(i) < low(j); });
+  for (const std::size_t edge : order) {
+    const auto isBehind = [&](std::size_t other) { return high(other) + kTouching < low(edge); };
+    open.erase(std::remove_if(open.begin(), open.end(), isBehind), open.end());
+    for (const std::size_t other : open) {
+      if (edgesMeet(points, edge, other)) return std::minmax(edge, other);
     }
+    open.push_back(edge);
   }
-  return "";
-}
-
-/// True where, seen from the first vertex, the others follow each other counter-clockwise within half a turn: nothing
-/// crosses then. Holds for every strictly convex polygon, and saves the general test.
-bool isFan(const std::vector<Point2d>& points) {
-  const Point2d first = points[1] - points[0];
-  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-    const Point2d next = points[i + 1] - points[0];
-    if (cross(points[i] - points[0], next) < kMinArea || cross(first, next) < kMinArea) return false;
-  }
-  return true;
+  return std::nullopt;
 }
 
 void requireSimple(const std::vector<Point2d>& points, const std::string& name) {
-  if (isFan(points)) return;
-  BoostPolygon polygon;
-  for (const Point2d& point : points) {
-    polygon.outer().emplace_back(point.x() - points[0].x(), point.y() - points[0].y());
-  }
-  polygon.outer().push_back(polygon.outer().front());
-  std::string reason;
-  if (bg::is_valid(polygon, reason)) return;
-  throw InvalidRequest(text(name, " crosses or touches itself", whereItCrossesItself(points),
-                            "; give the corners of a simple polygon in order"));
+  const auto edges = meetingEdges(points);
+  if (!edges) return;
+  throw InvalidRequest(text(name, " crosses or touches itself: the edge from vertex ", edges->first, " ",
+                            at(points[edges->first]), " meets the edge from vertex ", edges->second, " ",
+                            at(points[edges->second]), "; give the corners of a simple polygon in order"));
 }
 
 BoundingBox boxOf(const std::vector<Point2d>& points) {

@@ -113,7 +113,7 @@ Pose2d poseOf(const ob::State* state) {
 void setPose(const Pose2d& pose, ob::State* state) {
   auto* se2 = state->as<ob::SE2StateSpace::StateType>();
   se2->setXY(pose.x, pose.y);
-  se2->setYaw(pose.heading);
+  se2->setYaw(normalizeAngle(pose.heading));  // OMPL takes no other value
 }
 
 ob::SpaceInformationPtr makeSpace(const Scene& scene, const BoundingBox& area, std::uint64_t seed) {

@@ -2,10 +2,8 @@
 #include "external_command/map/drivable_surface.h"
 
 #include <algorithm>
-#include <boost/geometry/algorithms/area.hpp>
-#include <boost/geometry/algorithms/correct.hpp>
-#include <boost/geometry/algorithms/union.hpp>
-#include <boost/geometry/algorithms/within.hpp>
+#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/linestring.hpp>
 #include <boost/geometry/geometries/multi_polygon.hpp>
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/polygon.hpp>
@@ -23,9 +21,15 @@ using BoostPolygon = bg::model::polygon<BoostPoint, false, true>;
 using BoostRing = BoostPolygon::ring_type;
 using BoostMultiPolygon = bg::model::multi_polygon<BoostPolygon>;
 
-constexpr double kPieceLength = 2.0;    // of a lane; a piece so short does not cross itself [m]
-constexpr double kPieceOverlap = 0.05;  // between pieces: edges that only touch are where polygon unions fail [m]
-constexpr double kMinHoleArea = 0.05;   // smaller holes are slits between lanes [m^2]
+using BoostLine = bg::model::linestring<BoostPoint>;
+
+constexpr double kTouching = 0.3;      // by which every lane is widened [m]
+constexpr double kSimplified = 0.03;   // tolerance of the centre line [m]
+constexpr int kPointsPerCircle = 16;   // of rounded ends and bends
+constexpr double kMinHoleArea = 0.05;  // smaller holes are slits between lanes [m^2]
+constexpr double kLostArea = 0.01;     // of a union that shows that it failed [m^2]
+constexpr double kNudge = 0.011;  // edges that nearly coincide are where unions fail; a little wider, they do not [m]
+constexpr int kNudges = 5;
 
 /// Coordinates relative to `center`, where they are small.
 BoostPolygon toBoost(const std::vector<Point2d>& points, const Point2d& center) {
@@ -43,28 +47,32 @@ std::vector<Point2d> fromBoost(const BoostRing& ring, const Point2d& center) {
   return points;
 }
 
-void add(const BoostPolygon& piece, BoostMultiPolygon* whole) {
-  BoostMultiPolygon joined;
-  bg::union_(*whole, piece, joined);
-  *whole = std::move(joined);
+/// The lane within `radius` of `s`, widened to `half_width`, with round ends.
+BoostMultiPolygon widened(const Lane& lane, double s, double radius, double half_width, const Point2d& center) {
+  const double from = std::max(0.0, s - radius), to = std::min(lane.length(), s + radius);
+  BoostMultiPolygon surface;
+  if (to - from < kTouching) return surface;
+  BoostLine dense, line;
+  const Polyline part = lane.center.slice(from, to);
+  for (const Point2d& point : part.points()) dense.emplace_back(point.x() - center.x(), point.y() - center.y());
+  bg::simplify(dense, line, kSimplified);
+  using namespace bg::strategy::buffer;
+  bg::buffer(line, surface, distance_symmetric<double>(half_width), side_straight(), join_round(kPointsPerCircle),
+             end_round(kPointsPerCircle), point_circle(kPointsPerCircle));
+  return surface;
 }
 
-/// The lane between `from` and `to`, a trapezium.
-BoostPolygon pieceOf(const Lane& lane, double from, double to, double gap, const Point2d& center) {
-  const Point2d a = lane.center.pointAt(from), b = lane.center.pointAt(to);
-  const Point2d along = (b - a).normalized() * kPieceOverlap;
-  const auto side_at = [&](double s, double lane_heading) -> Point2d {
-    return (lane.widthAt(s) / 2.0 + gap) * unitVector(lane_heading + M_PI / 2.0);
-  };
-  const Point2d side_a = side_at(from, lane.center.headingAt(from)), side_b = side_at(to, lane.center.headingAt(to));
-  return toBoost({a - along - side_a, b + along - side_b, b + along + side_b, a - along + side_a}, center);
-}
-
-void addLane(const Lane& lane, double s, const SurfaceParams& params, const Point2d& center, BoostMultiPolygon* whole) {
-  const double first = std::max(0.0, s - params.radius);
-  const double last = std::min(lane.length(), s + params.radius);
-  for (double from = first; from < last - 1e-3; from += kPieceLength) {
-    add(pieceOf(lane, from, std::min(from + kPieceLength, last), params.gap, center), whole);
+/// Adds the widened lane to `whole`.
+void add(const Lane& lane, double s, double radius, double extra, const Point2d& center, BoostMultiPolygon* whole) {
+  for (int i = 0; i < kNudges; ++i) {
+    const double half_width = lane.widthAt(s) / 2.0 + extra + i * kNudge;
+    const BoostMultiPolygon piece = widened(lane, s, radius, half_width, center);
+    BoostMultiPolygon joined;
+    bg::union_(*whole, piece, joined);
+    const bool is_whole = bg::area(joined) > std::max(bg::area(*whole), bg::area(piece)) - kLostArea;
+    if (!is_whole) continue;
+    *whole = std::move(joined);
+    return;
   }
 }
 
@@ -89,7 +97,10 @@ Surface drivableSurface(const HdMap& map, const Polygon& core, const Point2d& ce
   LaneQuery query;
   query.max_distance = params.radius;
   for (const LaneMatch& near : map.lanesWithin(center, query)) {
-    addLane(map.lane(near.lane), near.frenet.s, params, center, &whole);
+    const Lane& lane = map.lane(near.lane);
+    add(lane, near.frenet.s, params.radius, kTouching, center, &whole);
+    const bool is_close = near.frenet.distance < params.gap_radius;
+    if (is_close && params.gap > kTouching) add(lane, near.frenet.s, params.gap_radius, params.gap, center, &whole);
   }
   if (whole.empty()) throw InternalError("lanes and area have no common surface");
   const BoostPolygon& part = partWith(core, whole, center);

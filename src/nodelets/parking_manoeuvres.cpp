@@ -2,6 +2,11 @@
 #include "parking_manoeuvres.h"
 
 #include <algorithm>
+#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/multi_point.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/geometries/polygon.hpp>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -12,10 +17,21 @@ namespace external_command {
 
 namespace {
 
-constexpr double kSurfaceRadius = 25.0;                            // of lanes around a place to manoeuvre [m]
-constexpr double kGaps[] = {0.3, 1.0, 2.0, 4.0};                   // between lanes and a space, tried in turn [m]
+constexpr double kSurfaceRadius = 25.0;                     // of lanes around a place to manoeuvre [m]
+constexpr double kGapRadius = 10.0;                         // along the lane, that such a gap is closed [m]
+constexpr double kGaps[] = {0.3, 1.0, 2.0, 3.0, 4.0, 5.0};  // between lanes and a space, tried in turn [m]
+constexpr double kSlack = 0.02;  // beyond the margin, so that rounding does not block a goal [m]
+constexpr double kThroat = 1.0;  // by which more than just touching is open between lane and space [m]
 constexpr double kLeavingPoints[] = {0.0, 4.0, 8.0, 12.0};         // before the route's end, from which to leave it [m]
 constexpr double kJoiningPoints[] = {5.0, 8.0, 12.0, 16.0, 22.0};  // after the route's start, where to get onto it [m]
+
+using BoostPoint = boost::geometry::model::d2::point_xy<double>;
+
+Point2d middleOf(const Polygon& polygon) {
+  Point2d sum = Point2d::Zero();
+  for (const Point2d& corner : polygon.points()) sum += corner - polygon.points()[0];
+  return polygon.points()[0] + sum / static_cast<double>(polygon.points().size());
+}
 
 const Polygon* placeOf(const HdMap& map, const Point2d& point) {
   for (const ParkingSpace& space : map.parkingSpaces()) {
@@ -48,7 +64,8 @@ ParkingDirection readParkingDirection(const ParameterReader& reader) {
       text("parameter ", reader.nameOf("parking_direction"), " is '", word, "'; give nose_in, backing_in or cheaper"));
 }
 
-std::vector<Pose2d> parkingPoses(const ParkingSpace& space, const VehicleParams& vehicle, ParkingDirection direction) {
+std::vector<Pose2d> parkingPoses(const ParkingSpace& space, const VehicleParams& vehicle, double margin,
+                                 ParkingDirection direction) {
   // In the frame of the space's heading the middle of its bounding box is the middle of the space.
   const Pose2d frame{space.polygon.points()[0].x(), space.polygon.points()[0].y(), space.heading};
   Point2d low = Point2d::Zero(), high = Point2d::Zero();
@@ -57,7 +74,9 @@ std::vector<Pose2d> parkingPoses(const ParkingSpace& space, const VehicleParams&
     low = low.cwiseMin(local);
     high = high.cwiseMax(local);
   }
-  const Point2d middle = (low + high) / 2.0;
+  Point2d middle = (low + high) / 2.0;
+  // In a space that is too short the vehicle sticks out towards the lane, not beyond the far end.
+  middle.x() = std::min(middle.x(), high.x() - margin - kSlack - vehicle.length() / 2.0);
   const double ahead = vehicle.length() / 2.0 - vehicle.rear_overhang;
   const Pose2d nose_in = compose(frame, {middle.x() - ahead, middle.y(), 0.0});
   const Pose2d backing_in = compose(frame, {middle.x() + ahead, middle.y(), M_PI});
@@ -66,19 +85,34 @@ std::vector<Pose2d> parkingPoses(const ParkingSpace& space, const VehicleParams&
   return {nose_in, backing_in};
 }
 
+Polygon placeFor(const ParkingSpace& space, const VehicleParams& vehicle, double margin, const Pose2d& parked) {
+  boost::geometry::model::multi_point<BoostPoint> points;
+  const Point2d origin = parked.position();  // UTM coordinates would eat the digits
+  const auto add = [&](const Point2d& point) { points.emplace_back(point.x() - origin.x(), point.y() - origin.y()); };
+  for (const Point2d& corner : space.polygon.points()) add(corner);
+  for (const Point2d& corner : footprintAt(vehicle, parked, margin + kSlack)) add(corner);
+  boost::geometry::model::polygon<BoostPoint> hull;
+  boost::geometry::convex_hull(points, hull);
+  std::vector<Point2d> corners;
+  for (const BoostPoint& point : hull.outer()) corners.push_back(origin + Point2d(point.x(), point.y()));
+  return Polygon(corners, text("parking space ", space.id));
+}
+
 Region::Parts surfaceWith(const HdMap& map, const Polygon& core, const Pose2d& on_lane) {
-  std::optional<Surface> surface;
-  for (const double gap : kGaps) {
-    surface = drivableSurface(map, core, on_lane.position(), {kSurfaceRadius, gap});
-    if (surface->outer.contains(on_lane.position())) break;
-  }
+  const auto surface_at = [&](double gap) {
+    return drivableSurface(map, core, on_lane.position(), {kSurfaceRadius, gap, kGapRadius});
+  };
+  const auto connects = [&](double gap) { return surface_at(gap).outer.contains(on_lane.position()); };
+  const auto gap = std::find_if(std::begin(kGaps), std::prev(std::end(kGaps)), connects);
+  const Surface surface = surface_at(*gap + kThroat);
   Region::Parts parts;
-  parts.drivable = surface->outer;
-  parts.non_drivable = surface->holes;
+  parts.drivable = surface.outer;
+  parts.non_drivable = surface.holes;
   for (const ParkingSpace& space : map.parkingSpaces()) {
-    const bool is_near = (space.polygon.points()[0] - on_lane.position()).norm() < kSurfaceRadius;
+    const Point2d middle = middleOf(space.polygon);
+    const bool is_near = (middle - on_lane.position()).norm() < kSurfaceRadius;
     // A space inside the area to drive in is a mark on the ground, not a neighbour.
-    if (is_near && !core.contains(space.polygon.points()[0])) parts.non_drivable.push_back(space.polygon);
+    if (is_near && !core.contains(middle)) parts.non_drivable.push_back(space.polygon);
   }
   return parts;
 }

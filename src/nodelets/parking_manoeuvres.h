@@ -14,8 +14,14 @@ enum class ParkingDirection { kNoseIn, kBackingIn, kCheaper };
 /// `parking_direction`: "nose_in", "backing_in" or "cheaper". @throws InvalidParameter
 ParkingDirection readParkingDirection(const ParameterReader& reader);
 
-/// Poses of the rear-axle centre with the vehicle in the middle of the space.
-std::vector<Pose2d> parkingPoses(const ParkingSpace& space, const VehicleParams& vehicle, ParkingDirection direction);
+/// Poses of the rear-axle centre with the vehicle in the middle of the space, or, where that is too short for vehicle
+/// and `margin` [m], sticking out of it towards the lane.
+std::vector<Pose2d> parkingPoses(const ParkingSpace& space, const VehicleParams& vehicle, double margin,
+                                 ParkingDirection direction);
+
+/// The space together with what the vehicle `parked` in it needs: spaces of real maps are drawn roughly. Neighbouring
+/// spaces still count as obstacles.
+Polygon placeFor(const ParkingSpace& space, const VehicleParams& vehicle, double margin, const Pose2d& parked);
 
 /// Where a vehicle may manoeuvre between `core` (a parking space or an area) and the lanes around it: both surfaces,
 /// the gap between them closed as far as needed for `on_lane` to be inside; the other parking spaces are obstacles.

@@ -96,8 +96,9 @@ Pose RoutingRequestConverter::toPose(const LaneWaypoint& way_point, const Pose2d
   given.x = way_point.pose.x;
   given.y = way_point.pose.y;
   given.heading = way_point.heading;
+  given.has_heading = way_point.has_heading;
   Pose pose = toMsg(toMapPose(given, frame));
-  pose.has_heading = way_point.has_heading;
+  pose.has_heading = given.has_heading;
   return pose;
 }
 

@@ -83,8 +83,16 @@ void ValetParkingCommandProcessor::processSpecialCommand(const ValetParkingComma
   if (!command.is_start_pose_set) {
     leaveParkingPlace(context(), context().vehiclePose().get(), *planner_, cancel, plan);
   }
-  const Region region = planner_->regionOf(surfaceWith(map, space.polygon, plan->path.back().pose()));
-  leaveRouteFor(parkingPoses(space, vehicle, direction_), region, *planner_, cancel, plan);
+  const double margin = planner_->params().margin;
+  const std::vector<Pose2d> goals = parkingPoses(space, vehicle, margin, direction_);
+  const Polygon place = placeFor(space, vehicle, margin, goals.front());
+  const Region region = planner_->regionOf(surfaceWith(map, place, plan->path.back().pose()));
+  try {
+    leaveRouteFor(goals, region, *planner_, cancel, plan);
+  } catch (const GoalBlocked& error) {
+    throw GoalBlocked(text("the vehicle does not fit into parking space ", space.id, " (non_drivable_roi are the ",
+                           "neighbouring spaces): ", error.what()));
+  }
 
   plan->command.command_type = PlanningCommand::PARKING;
   plan->command.parking_command.parking_spot_id = command.parking_spot_id;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "external_command/ros/command_processor.h"
 
+#include <nodelet/detail/callback_queue.h>
 #include <ros/console.h>
 
 #include <map>
@@ -28,6 +29,7 @@ CommandProcessor::CommandProcessor() = default;
 CommandProcessor::~CommandProcessor() = default;
 
 void CommandProcessor::onInit() {
+  keepQueues();
   // nodelet swallows what onInit throws, so it is told here.
   try {
     parameters_ = std::make_unique<const ParameterReader>(getPrivateNodeHandle());
@@ -39,6 +41,15 @@ void CommandProcessor::onInit() {
     ROS_FATAL_STREAM(getName() << " cannot start: " << error.what());
     noteStartFailure(getName(), error.what());
     throw;
+  }
+}
+
+/// nodelet::Loader deletes the callback queues of a nodelet that did not start before the nodelet; its subscribers
+/// would then take themselves out of a queue that is gone.
+void CommandProcessor::keepQueues() {
+  for (const ros::NodeHandle& nh : {getNodeHandle(), getMTNodeHandle()}) {
+    auto* const queue = dynamic_cast<nodelet::detail::CallbackQueue*>(nh.getCallbackQueue());
+    if (queue != nullptr) queues_.emplace_back(queue->shared_from_this());
   }
 }
 

@@ -18,6 +18,12 @@ std::shared_ptr<const Router> routerOf(const ContextParams& params) {
   return sharedRouter(params.map_file, params.map_origin, params.router);
 }
 
+/// The context outlives the nodelet that made it, and that nodelet's callback queue.
+ros::NodeHandle onGlobalQueue(ros::NodeHandle nh) {
+  nh.setCallbackQueue(ros::getGlobalCallbackQueue());
+  return nh;
+}
+
 /// Tells programs that know the map file's coordinates what to subtract from them.
 void publishOrigin(const ros::NodeHandle& parameters, const Router* router) {
   const Point2d origin = router ? router->map().origin() : Point2d::Zero();
@@ -59,13 +65,13 @@ std::shared_ptr<ProcessContext> ProcessContext::acquire(const ros::NodeHandle& n
 
 ProcessContext::ProcessContext(const ros::NodeHandle& nh, const ros::NodeHandle& parameters)
     : params_(readContextParams(ParameterReader(parameters))),
-      nh_(nh),
+      nh_(onGlobalQueue(nh)),
       router_(routerOf(params_)),
       vehicle_pose_(params_.map_frame, params_.base_frame, params_.max_pose_age),
       registry_([publisher = advertise<CommandStatus>(params_.status_topic, false)](const CommandStatus& status) {
         publisher.publish(status);
       }),
-      display_(nh, {params_.path_topic, params_.markers_topic, params_.map_frame, params_.base_frame, params_.vehicle},
+      display_(nh_, {params_.path_topic, params_.markers_topic, params_.map_frame, params_.base_frame, params_.vehicle},
                router_ ? router_->mapPtr() : nullptr) {
   publishOrigin(parameters, router_.get());
   ros::SteadyTimerOptions options;

@@ -190,7 +190,8 @@ std::vector<LaneRange> slice(const Chain& chain, double x_from, double x_to) {
   for (const Piece& piece : chain) {
     if (piece.x_to < x_from - kTiny) continue;
     if (piece.x_from > x_to - kTiny && !ranges.empty()) break;
-    const LaneRange range{piece.lane, std::max(piece.from, piece.sAt(x_from)), std::min(piece.to, piece.sAt(x_to))};
+    const double to = std::min(piece.to, piece.sAt(x_to));
+    const LaneRange range{piece.lane, std::min(std::max(piece.from, piece.sAt(x_from)), to), to};
     if (!ranges.empty() && goesOn(ranges.back(), range)) {
       ranges.back().to_s = range.to_s;
     } else {
@@ -213,7 +214,7 @@ void append(const LaneRange& range, std::vector<RouteStep>* steps) {
       last.to_s = range.to_s;
       return;
     }
-  } else if (!steps->empty()) {
+  } else if (!steps->empty() && !steps->back().change_onto.empty()) {
     const LaneRange arrival = steps->back().change_onto.back();  // a change that is done at the very end of a lane
     if (arrival.lane != range.lane) steps->push_back({arrival.lane, arrival.to_s, arrival.to_s});
   }

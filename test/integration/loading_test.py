@@ -17,6 +17,7 @@ from external_command.srv import GetCommandStatus
 
 NAMESPACE = "/loading_test"
 ACTION = "external_command/ActionCommandProcessor"
+ADAPTER = "external_command/OldRoutingAdapter"
 UNKNOWN = "nobody/NoSuchProcessor"
 
 
@@ -56,6 +57,10 @@ class LoadingTest(unittest.TestCase):
         others = {"lane_follow_command_processor": {"input_command_name": 5}}
         self.assert_stops(component([ACTION, LANE_FOLLOW], others), LANE_FOLLOW,
                           NAMESPACE + "/lane_follow_command_processor/input_command_name", "string", "whole number")
+
+    def test_a_class_that_throws_with_its_topics_open_stops_the_start(self):
+        others = {"old_routing_adapter": {"goal_name": "no name of a topic"}}
+        self.assert_stops(component([LANE_FOLLOW, ADAPTER], others), ADAPTER, "no name of a topic")
 
     def test_the_same_class_twice_stops_the_start(self):
         self.assert_stops(component([LANE_FOLLOW, LANE_FOLLOW]), LANE_FOLLOW, "twice")

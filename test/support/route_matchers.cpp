@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace external_command {
 
@@ -171,12 +172,17 @@ AssertionResult isContinuous(const Path& path, double spacing) {
 }
 
 AssertionResult staysNear(const Path& path, const Route& route, const HdMap& map, double distance) {
+  std::set<LaneIndex> lanes;
+  for (const RouteStep& step : route.steps) {
+    lanes.insert(step.lane);
+    for (const LaneRange& part : step.change_onto) lanes.insert(part.lane);
+  }
   for (std::size_t i = 0; i < path.size(); ++i) {
-    double nearest = 1e9;
-    for (const RouteStep& step : route.steps) {
-      nearest = std::min(nearest, map.lane(step.lane).center.project(path[i].pose().position()).distance);
-    }
-    if (nearest > distance) return AssertionFailure() << "point " << i << " is " << nearest << " m from the lanes";
+    const Point2d point = path[i].pose().position();
+    const bool is_near = std::any_of(lanes.begin(), lanes.end(), [&](LaneIndex lane) {
+      return map.lane(lane).center.project(point).distance <= distance;
+    });
+    if (!is_near) return AssertionFailure() << "point " << i << " is more than " << distance << " m from the lanes";
   }
   return AssertionSuccess();
 }

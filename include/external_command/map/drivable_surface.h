@@ -15,13 +15,15 @@ struct Surface {
 };
 
 struct SurfaceParams {
-  double radius = 25.0;  ///< around `center`, lanes are part of the surface [m]
-  double gap = 0.5;      ///< by which lanes are widened on either side, so that gaps to their neighbours close [m]
+  double radius = 25.0;      ///< around `center`, lanes are part of the surface [m]
+  double gap = 0.3;          ///< by which lanes are widened on either side within `gap_radius` of `center` [m]
+  double gap_radius = 10.0;  ///< [m]
 };
 
 /// `core` (a parking space, an area) together with the drivable lanes around `center`: where a vehicle may manoeuvre
 /// between the lanes and `core`. Lanes that do not connect to `core` are left out.
-/// A lane's surface is its centre line widened by half its width and the gap, to both sides.
+/// A lane's surface is its centre line widened by half its width to both sides, and by a little more, so that lanes
+/// that only touch connect.
 Surface drivableSurface(const HdMap& map, const Polygon& core, const Point2d& center, const SurfaceParams& params);
 
 }  // namespace external_command

@@ -3,6 +3,7 @@
 
 #include <nodelet/nodelet.h>
 
+#include <any>
 #include <memory>
 #include <string>
 #include <vector>
@@ -46,7 +47,9 @@ class CommandProcessor : public nodelet::Nodelet {
 
  private:
   void onInit() final;
+  void keepQueues();
 
+  std::vector<std::any> queues_;  // first: they outlive what is bound to them
   std::unique_ptr<const ParameterReader> parameters_;
   std::shared_ptr<ProcessContext> context_;
 };

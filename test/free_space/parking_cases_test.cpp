@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "../benchmark/parking_case.h"
+#include "external_command/free_space/free_space_planner.h"
+#include "support/path_matchers.h"
+
+namespace external_command {
+namespace {
+
+const std::string kFolder = std::string(EC_SHARED_DIR) + "/data/parking";
+
+TEST(ParkingCases, AreAllSolvedAtACentimetre) {
+  if (!std::filesystem::exists(kFolder)) GTEST_SKIP() << "there are no parking cases in " << kFolder;
+  FreeSpaceParams params;
+  params.margin = 0.01;
+  params.time_budget = 10.0;
+  params.improve_iterations = 1000;
+  for (const std::string& file : benchmark::parkingCaseFiles({kFolder})) {
+    const benchmark::ParkingCase task = benchmark::readParkingCase(file);
+    const auto result = FreeSpacePlanner(task.vehicle, params).plan(task.start, {task.goal}, task.region, {});
+    EXPECT_TRUE(isDrivable(result.path, task.vehicle)) << task.name;
+    EXPECT_TRUE(joins(result.path, task.start, task.goal)) << task.name;
+    EXPECT_TRUE(staysClear(result.path, task.vehicle, task.region, 0.008)) << task.name;
+    const auto best_known = benchmark::bestKnownCosts(file);
+    const auto known = best_known.find(task.name);
+    EXPECT_LT(result.cost, known == best_known.end() ? 1e9 : 1.5 * known->second) << task.name;
+  }
+}
+
+TEST(ParkingCases, ReportAFileThatIsNone) {
+  EXPECT_THROW(benchmark::readParkingCase(std::string(EC_SOURCE_DIR) + "/package.xml"), std::runtime_error);
+  EXPECT_THROW(benchmark::parkingCaseFiles({"/no/such/folder"}), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace external_command
