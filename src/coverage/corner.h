@@ -37,22 +37,33 @@ struct CornerWay {
 class CornerSearch {
  public:
   /// @param price  of a square metre that is not swept [m/m^2].
-  CornerSearch(const Field& field, CoverageGrid* grid, double price) : field_(field), grid_(*grid), price_(price) {}
+  CornerSearch(const Field& field, CoverageGrid* grid, double price);
 
   std::optional<CornerWay> find(const Side& before, const Corner& corner, const Side& after);
 
  private:
-  void tryCurve(const Side& before, const Side& after, double leave, double enter, const Curve& curve);
-  void tryDirect(const Side& before, const Side& after);
-  void trySwing(const Side& before, const Corner& corner, const Side& after);
+  /// A place on a side.
+  struct Place {
+    double s = 0.0;  ///< from the side's start [m]
+    Pose2d pose;
+  };
+
+  std::vector<Place> places(const Side& side, bool at_end) const;
+  void tryDirect();
+  void trySwing(const Corner& corner);
+  void tryThrough(const Pose2d& apex);
   std::vector<Pose2d> apexes(const Corner& corner) const;
-  double costOf(const Side& before, const Side& after, const CornerWay& way);
+  void tryCurve(double leave, double enter, const Curve& curve);
+  double costOf(const std::vector<Curve>& curves);
 
   const Field& field_;
   CoverageGrid& grid_;
   double price_;
-  double first_reach_ = 0.0;   ///< how far back on the first side the search goes [m]
-  double second_reach_ = 0.0;  ///< how far on, on the second [m]
+  double own_share_;
+  Side before_;  ///< the end of the first side, as far back as the search goes
+  Side after_;   ///< the beginning of the second
+  std::vector<Place> leaves_;
+  std::vector<Place> enters_;
   std::optional<CornerWay> best_;
 };
 

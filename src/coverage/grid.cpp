@@ -55,9 +55,9 @@ double CoverageGrid::sweep(const Curve& curve, double width) {
   return static_cast<double>(added) * cellArea();
 }
 
-double CoverageGrid::gain(const std::vector<Curve>& curves, double width, std::uint8_t without) {
-  std::size_t added = 0;
-  const auto mask = static_cast<std::uint8_t>(kGoal | kSwept | kMarked | without);
+double CoverageGrid::gain(const std::vector<Curve>& curves, double width, double own_share) {
+  std::size_t added = 0, own = 0;
+  const auto mask = static_cast<std::uint8_t>(kGoal | kSwept | kMarked | kInner);
   std::vector<std::array<Point2d, 4>> strips;
   for (const Curve& curve : curves) {
     for (const auto& strip : stripsOf(curve, width)) strips.push_back(strip);
@@ -66,7 +66,7 @@ double CoverageGrid::gain(const std::vector<Curve>& curves, double width, std::u
     visitRuns(*this, strip, [&](std::uint8_t* first, std::uint8_t* last) {
       for (; first != last; ++first) {
         if ((*first & mask) != kGoal) continue;
-        ++added;
+        ++((*first & kOwn) != 0 ? own : added);
         *first |= kMarked;
       }
     });
@@ -76,7 +76,7 @@ double CoverageGrid::gain(const std::vector<Curve>& curves, double width, std::u
       for (; first != last; ++first) *first &= static_cast<std::uint8_t>(~kMarked);
     });
   }
-  return static_cast<double>(added) * cellArea();
+  return (static_cast<double>(added) + own_share * static_cast<double>(own)) * cellArea();
 }
 
 double CoverageGrid::area(std::uint8_t with, std::uint8_t without) const {

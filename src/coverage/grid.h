@@ -20,8 +20,9 @@ enum CellFlag : std::uint8_t {
   kGoal = 2,    ///< within what the vehicle can reach
   kSwept = 4,   ///< worked on
   kOpen = 8,    ///< the vehicle's centre line can be there
-  kInner = 16,  ///< left to later laps and swaths
-  kMarked = 32  ///< for the moment
+  kOwn = 16,    ///< nominally swept by the lap in hand: what it leaves can still be swept by others
+  kInner = 32,  ///< left to later laps and swaths
+  kMarked = 64  ///< for the moment
 };
 
 /// The area as fine cells; a cell is what its centre is. Copyable: each plan that is tried has its own.
@@ -51,9 +52,9 @@ class CoverageGrid {
   /// Marks what work along `curve` sweeps. @return the area of the goal that was not swept before [m^2].
   double sweep(const Curve& curve, double width);
 
-  /// The area of the goal [m^2] that work along all of `curves` would add, cells with a flag of `without` left out.
-  /// Uses kMarked, and clears it again.
-  double gain(const std::vector<Curve>& curves, double width, std::uint8_t without);
+  /// The area of the goal [m^2] that work along all of `curves` would add, without the cells that are kInner; those that
+  /// are kOwn count `own_share`. Uses kMarked, and clears it again.
+  double gain(const std::vector<Curve>& curves, double width, double own_share);
 
   /// Area [m^2] of the cells that have all of `with` and none of `without`.
   double area(std::uint8_t with, std::uint8_t without) const;

@@ -187,8 +187,9 @@ std::vector<Work> planLap(const Field& field, int number, int around_holes, doub
   const double most = around_holes > 0 ? field.width() / 2.0 + around_holes * pitch : 0.0;
   const shapes::Shapes lines = inset(field.workable(), border, std::min(border, most));
   const double inner = border + field.width() / 2.0;
-  grid->clear(kInner);
+  grid->clear(kInner | kOwn);
   grid->set(inset(field.workable(), inner, std::min(inner, most)), kInner);
+  if (number > 0) grid->set(inset(field.workable(), border - pitch / 2.0, std::min(border - pitch / 2.0, most)), kOwn);
   std::vector<Work> works;
   const auto add = [&](const shapes::Ring& line, bool is_ring) {
     const Ring ring(pointsOf(line), field.radius());

@@ -130,7 +130,8 @@ class Planning {
     while (true) {
       bool all_hopeless = true;
       for (const Approach& approach : approaches_) {
-        const FirstPath found = findFirstPath(scene_, approach.query, areaOf(approach.query),
+        Scene sc = scene_; if (getenv("GC")) sc.cost.gear_change_cost = atof(getenv("GC"));
+        const FirstPath found = findFirstPath(sc, approach.query, areaOf(approach.query),
                                               {params_.planner, steps, params_.seed}, stop_);
         stop_.cancel().throwIfCancelled();
         all_hopeless = all_hopeless && found.outcome == TwoWaySearch::Outcome::kNone;

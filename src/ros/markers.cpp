@@ -17,6 +17,8 @@ constexpr double kLineHeight = 0.0;
 constexpr double kRouteHeight = 0.2;
 constexpr double kPathHeight = 0.4;
 constexpr double kPoseHeight = 0.6;
+constexpr double kRouteArrow = 6.0;       // seen from high above [m]
+constexpr double kManoeuvreArrow = 2.0;   // smaller than the footprint it stands in [m]
 constexpr double kFootprintStep = 1.0;    // between two footprints drawn [m]
 constexpr double kStraightEnough = 0.02;  // a line's points that turn less than this are left out [rad]
 constexpr double kLongestSegment = 25.0;  // [m]
@@ -144,10 +146,10 @@ void addFootprints(const Path& path, const VehicleParams& vehicle, Marker* lines
 }
 
 /// An arrow at `pose`, or a marker that deletes the one of an earlier command.
-Marker arrow(const std::string& frame, const std::string& ns, const std::optional<Pose2d>& pose,
+Marker arrow(const std::string& frame, const std::string& ns, const std::optional<Pose2d>& pose, double length,
              const std_msgs::ColorRGBA& paint) {
-  Marker made = marker(frame, ns, Marker::ARROW, 6.0, paint);
-  made.scale.y = made.scale.z = 1.5;
+  Marker made = marker(frame, ns, Marker::ARROW, length, paint);
+  made.scale.y = made.scale.z = length / 4.0;
   if (!pose) {
     made.action = Marker::DELETE;
     return made;
@@ -229,8 +231,9 @@ MarkerArray commandMarkers(const CommandScene& scene, const HdMap* map, const Ve
     if (part->points.empty()) part->action = Marker::DELETE;
     array.markers.push_back(std::move(*part));
   }
-  array.markers.push_back(arrow(frame, "start", scene.start, kForward));
-  array.markers.push_back(arrow(frame, "goal", scene.goal, kRed));
+  const double arrow_length = scene.with_footprints ? kManoeuvreArrow : kRouteArrow;
+  array.markers.push_back(arrow(frame, "start", scene.start, arrow_length, kForward));
+  array.markers.push_back(arrow(frame, "goal", scene.goal, arrow_length, kRed));
   return array;
 }
 

@@ -14,7 +14,7 @@ LaneRange rangeOf(const HdMap& map, const BlackListedLane& part, const std::stri
   if (!lane) throw InvalidRequest(text(name, " names lane '", part.id, "', which the map does not have"));
   const double length = map.lane(*lane).length();
   if (part.start_s == 0.0 && part.end_s == 0.0) return {*lane, 0.0, length};
-  if (part.start_s > part.end_s || part.start_s > length || part.end_s < 0.0) {
+  if (!(part.start_s <= part.end_s && part.start_s <= length && part.end_s >= 0.0)) {  // catches NaN
     throw InvalidRequest(text(name, " goes from s ", part.start_s, " to ", part.end_s, " m; lane ", part.id,
                               " goes from 0 to ", length, " m (both 0: the whole lane)"));
   }

@@ -16,16 +16,23 @@ namespace {
 /// 4 cm of a line that is sampled at 0.1 rad per point.
 constexpr double kSmoothingLength = 1.2;  // [m]
 constexpr double kPoint = 1e-3;           // [m]; a shorter route is one point
+constexpr double kMaxLead = 100.0;        // samples beyond the ends
 
 void requireWithin(const char* key, double value, double low, double high) {
   if (value >= low && value <= high) return;  // false for NaN
   throw InvalidParameter(text(key, " is ", value, "; it must lie in [", low, ", ", high, "]"));
 }
 
-/// The route is a single point: the path stands there, in the lane's direction.
-Path standingPath(const HdMap& map, const RouteStep& step) {
-  const Pose2d pose = map.lane(step.lane).center.poseAt(step.to_s);
-  return Path(2, ReferencePoint{pose.x, pose.y, pose.heading});
+/// The route is as good as a point: the path stands there, in the lane's direction.
+Path standingPath(const HdMap& map, const Route& route) {
+  Path path;
+  for (const auto& [lane, s] : {std::pair(route.steps.front().lane, route.steps.front().from_s),
+                                std::pair(route.steps.back().lane, route.steps.back().to_s)}) {
+    const Pose2d pose = map.lane(lane).center.poseAt(s);
+    path.push_back({pose.x, pose.y, pose.heading});
+  }
+  path.back().s = (path[1].pose().position() - path[0].pose().position()).norm();
+  return path;
 }
 
 /// The path through points[first] ... points[last]; the points beyond serve as neighbours.
@@ -64,12 +71,12 @@ void ReferencePathParams::validate() const {
 Path referencePath(const HdMap& map, const Route& route, const VehicleParams& vehicle,
                    const ReferencePathParams& params, double target_speed) {
   const CourseGeometry geometry(map, route, vehicle, params);
-  if (geometry.length() < kPoint) return standingPath(map, route.steps.back());
+  if (geometry.length() < kPoint) return standingPath(map, route);
   const auto intervals =
       static_cast<std::size_t>(std::max(2.0, std::ceil(geometry.length() / params.spacing - kPoint)));
   const double step = geometry.length() / static_cast<double>(intervals);
-  const auto before = static_cast<std::size_t>(geometry.leadIn() / step);
-  const auto after = static_cast<std::size_t>(geometry.leadOut() / step);
+  const auto before = static_cast<std::size_t>(std::min(geometry.leadIn() / step, kMaxLead));
+  const auto after = static_cast<std::size_t>(std::min(geometry.leadOut() / step, kMaxLead));
   const std::vector<CoursePoint> course = geometry.sample(step, before, intervals + after);
   std::vector<Point2d> points;
   points.reserve(course.size());

@@ -9,9 +9,10 @@ namespace external_command {
 
 namespace {
 
-constexpr std::size_t kBand = 3;   // off-diagonals of the system of equations
-constexpr double kHeld = 1e9;      // weight of the points that stay
-constexpr double kSettled = 40.0;  // scales after which the factors no longer change, away from the ends
+constexpr std::size_t kBand = 3;    // off-diagonals of the system of equations
+constexpr double kHeld = 1e6;       // weight of the points that stay, beside that of the third differences
+constexpr double kSettled = 40.0;   // scales after which the factors no longer change, away from the ends
+constexpr double kMaxScale = 30.0;  // beyond, the digits run out
 constexpr double kThird[] = {-1.0, 3.0, -3.0, 1.0};
 
 /// One row of the symmetric band matrix, or of its factors L D L^T: the diagonal, then what stands left of it, the
@@ -25,8 +26,11 @@ class System {
  public:
   System(std::size_t count, std::size_t first, std::size_t last, double scale)
       : count_(count), first_(first), last_(last), lambda_(std::pow(scale, 6.0)) {
+    held_ = kHeld * std::max(lambda_, 1.0);
     settled_ = first + static_cast<std::size_t>(kSettled * std::max(scale, 1.0));
   }
+
+  double held() const { return held_; }
 
   std::vector<Row> factorize() const {
     std::vector<Row> rows(count_);
@@ -41,7 +45,7 @@ class System {
   /// Row `i` of W + lambda D^T D, where D takes third differences.
   Row row(std::size_t i) const {
     Row row;
-    row.diagonal = i == first_ || i == last_ ? kHeld : 1.0;
+    row.diagonal = i == first_ || i == last_ ? held_ : 1.0;
     for (std::size_t j = i < kBand ? 0 : i - kBand; j <= i && j + kBand < count_; ++j) {
       const double own = lambda_ * kThird[i - j];
       row.diagonal += own * kThird[i - j];
@@ -64,7 +68,7 @@ class System {
   }
 
   std::size_t count_, first_, last_, settled_;
-  double lambda_;
+  double lambda_, held_;
 };
 
 }  // namespace
@@ -72,11 +76,12 @@ class System {
 void smooth(double scale, std::size_t first, std::size_t last, std::vector<Point2d>* points) {
   const std::size_t count = points->size();
   if (count <= kBand) return;
-  const std::vector<Row> rows = System(count, first, last, scale).factorize();
+  const System system(count, first, last, std::min(scale, kMaxScale));
+  const std::vector<Row> rows = system.factorize();
   std::vector<Point2d>& p = *points;
   const Point2d begin = p[first], end = p[last];
   for (Point2d& point : p) point -= begin;  // map coordinates would eat the digits
-  p[last] *= kHeld;
+  p[last] *= system.held();
   for (std::size_t i = 1; i < count; ++i) {
     for (std::size_t k = 1; k <= std::min(i, kBand); ++k) p[i] -= rows[i].left[k - 1] * p[i - k];
   }

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The command log: recorded by rosbag, read back, and sent again."""
 import os
-import signal
 import subprocess
 import tempfile
 import threading
@@ -35,23 +34,27 @@ def connected_topics(node, to):
 
 
 class Recorder:
-    """`rosbag record` of some topics; connected when the constructor returns."""
+    """`rosbag record` of `count` messages of a topic; connected when the constructor returns."""
 
-    NAME = "/log_recorder"
-
-    def __init__(self, path, topics):
+    def __init__(self, path, topic, count):
+        name = "/recorder_of_" + topic.rpartition("/")[2]
         self._process = subprocess.Popen(
-            ["rosrun", "rosbag", "record", "--output-name=" + path, "__name:=" + self.NAME[1:]] + topics)
-        support.wait_until(lambda: connected_topics(MANAGER, self.NAME).issuperset(topics), "rosbag records")
+            ["rosrun", "rosbag", "record", "--output-name=" + path, "--limit=%d" % count, topic, "__name:=" + name[1:]])
+        support.wait_until(lambda: topic in connected_topics(MANAGER, name), "rosbag records " + topic)
 
-    def close(self):
-        self._process.send_signal(signal.SIGINT)
+    def wait(self):
+        """Until all are recorded."""
         self._process.wait(support.DEADLINE)
 
 
 def dry_run(**fields):
     command = LaneFollowCommand(is_start_pose_set=True, way_point=[WEST], end_pose=EAST, dry_run=True, **fields)
     return command, support.service(LANE_FOLLOW, LaneFollow)(command).status
+
+
+def read(path):
+    with rosbag.Bag(path) as bag:
+        return [message for _, message, _ in bag.read_messages()]
 
 
 def replay(*arguments):
@@ -69,17 +72,11 @@ class LogTest(unittest.TestCase):
     def tearDown(self):
         self._folder.cleanup()
 
-    def record(self, send):
-        """What `send()` returns; meanwhile log and statuses are recorded."""
-        recorder = Recorder(self.bag, [LOG, STATUS])
-        try:
-            return send()
-        finally:
-            recorder.close()
-
-    def read(self, topic):
-        with rosbag.Bag(self.bag) as bag:
-            return [message for _, message, _ in bag.read_messages(topic)]
+    def record(self, count, send):
+        """The log while `send()` sends `count` requests."""
+        recorder = Recorder(self.bag, LOG, count)
+        send()
+        recorder.wait()
 
     def test_a_recorded_bag_holds_every_request_and_answer(self):
         sent = []
@@ -96,9 +93,11 @@ class LogTest(unittest.TestCase):
             for thread in threads:
                 thread.join()
 
-        self.record(send)
-        entries = {entry.reply.command_id: entry for entry in self.read(LOG)}
-        self.assertEqual(len(sent), 300)
+        statuses = os.path.join(self._folder.name, "statuses.bag")
+        status_recorder = Recorder(statuses, STATUS, 2 * 270 + 30)  # being planned and done; or refused
+        self.record(300, send)
+        status_recorder.wait()
+        entries = {entry.reply.command_id: entry for entry in read(self.bag)}
         self.assertEqual(sorted(entries), sorted(command.command_id for command, _ in sent))
         for command, status in sent:
             entry = entries[command.command_id]
@@ -110,7 +109,7 @@ class LogTest(unittest.TestCase):
             self.assertEqual((entry.service, entry.caller), (LANE_FOLLOW, rospy.get_name()))
             self.assertGreater(entry.duration, 0.0)
             self.assertGreater(entry.header.stamp.to_sec(), 0.0)
-        ends = {status.command_id for status in self.read(STATUS) if status.status != CommandStatus.RUNNING}
+        ends = {status.command_id for status in read(statuses) if status.status != CommandStatus.RUNNING}
         self.assertEqual(ends, set(entries))
 
     def test_a_recorded_bag_is_sent_again(self):
@@ -119,7 +118,7 @@ class LogTest(unittest.TestCase):
             dry_run(command_id=42, target_speed=-7.0)
             support.service(ACTION, Action)(ActionCommand(command_id=43, command=ActionCommand.STOP))
 
-        self.record(send)
+        self.record(3, send)
         for extra, keeps_ids in (("--immediate",), False), (("--rate", "10", "--keep-ids"), True):
             log = support.Collector(LOG, CommandLogEntry)
             result = replay(self.bag, *extra)
@@ -137,7 +136,7 @@ class LogTest(unittest.TestCase):
             self.assertIn("recorded: command 42 ERROR", result.stdout)
 
     def test_a_dry_run_of_the_replay_lists_and_sends_nothing(self):
-        self.record(lambda: dry_run(command_id=41, target_speed=7.0))
+        self.record(1, lambda: dry_run(command_id=41, target_speed=7.0))
         log = support.Collector(LOG, CommandLogEntry)
         result = replay(self.bag, "--dry-run", "--topic", LOG)
         self.assertEqual(result.returncode, 0, result.stdout)
@@ -147,7 +146,7 @@ class LogTest(unittest.TestCase):
         log.close()
 
     def test_the_replay_says_what_it_cannot_do(self):
-        self.record(lambda: dry_run(command_id=41))
+        self.record(1, lambda: dry_run(command_id=41))
         for arguments, words in (
                 ([self.bag, "--topic", "/nowhere"], ["/nowhere", LOG]),
                 ([self.bag + ".missing"], ["cannot be read", ".missing"]),

@@ -6,7 +6,8 @@ import unittest
 
 import rospy
 import rostest
-from geometry_msgs.msg import Point, PoseStamped
+import tf2_ros
+from geometry_msgs.msg import Point, PoseStamped, TransformStamped
 from nav_msgs.msg import Path
 
 import support
@@ -27,6 +28,15 @@ def follow(frame="", **fields):
     command = PathFollowCommand(**fields)
     command.header.frame_id = frame
     return support.service("external_command/path_follow", PathFollow)(command)
+
+
+def yard():
+    """A frame at (100, 200), turned to the left by a right angle."""
+    transform = TransformStamped(child_frame_id="yard")
+    transform.header.frame_id = "map"
+    transform.transform.translation.x, transform.transform.translation.y = 100.0, 200.0
+    transform.transform.rotation.z = transform.transform.rotation.w = math.sqrt(0.5)
+    return transform
 
 
 def dry_run(way_point, **fields):
@@ -121,6 +131,10 @@ class PathFollowTest(unittest.TestCase):
         self.assert_refused(dry_run(STRAIGHT, left_path_width=-2.0, right_path_width=2.0), "left_path_width is -2")
 
     def test_transforms_another_frame(self):
+        broadcaster = tf2_ros.StaticTransformBroadcaster()
+        broadcaster.sendTransform(yard())
+        support.wait_until(lambda: dry_run(STRAIGHT, frame="yard").status.status == CommandStatus.FINISHED,
+                           "the frame is known")
         path = self.assert_planned(dry_run(STRAIGHT, frame="yard"))
         self.assertAlmostEqual(path[-1].x, 100.0, places=3)
         self.assertAlmostEqual(path[-1].y, 220.0, places=3)
