@@ -49,15 +49,16 @@ def list_programs(build_dir):
 def _programs_of(build_dir, package, prefix):
     """catkin registers each test with ctest; the command ends in `run_tests.py RESULT_FILE ... COMMAND`."""
     listing = json.loads(subprocess.check_output(["ctest", "--show-only=json-v1"], cwd=build_dir))
-    return [_program(test, package, prefix) for test in listing["tests"]]
+    environment = os.path.join(build_dir, "devel", "env.sh")
+    return [_program(test, package, prefix, environment) for test in listing["tests"]]
 
 
-def _program(test, package, prefix):
+def _program(test, package, prefix, environment):
     command = test["command"]
     wrapper = next(index for index, word in enumerate(command) if word.endswith("/run_tests.py"))
     _, _, rest = test["name"].partition(f"_ctest_{package}_")
     kind, _, name = rest.partition("_")
-    return Program(kind, prefix + name, command, command[wrapper + 1])
+    return Program(kind, prefix + name, [environment] + command, command[wrapper + 1])
 
 
 def select(programs, words):
@@ -86,13 +87,11 @@ class Runner:
         started = time.time()
         mark = owned_processes.new_mark()
         log_file = os.path.join(self._log_dir, program.title.replace(" ", "-").replace("/", "-") + ".log")
-        exit_code = self._execute(program, mark, log_file)
+        exit_code, last_words = self._execute(program, mark, log_file)
         if exit_code is None:
-            counts = Counts(failures=[f"no end after {TIMEOUT:.0f} s\n{_tail(log_file, 40)}"])
+            counts = Counts(failures=[f"no end after {TIMEOUT:.0f} s\n{last_words}"])
         else:
-            counts = count_program(program.result_file, self._sub_results(program, started), exit_code)
-        if exit_code not in (None, 0, 1):  # a crash: its last words say more than the missing results
-            counts.failures[-1] += f"\n{_tail(log_file)}"
+            counts = count_program(program.result_file, self._sub_results(program, started), exit_code, last_words)
         seconds = time.time() - started
         verdict = "FAIL" if counts.failures else "ok  "
         print(f"{verdict} {program.title:<60} {counts.text()}  ({seconds:.1f} s)", flush=True)
@@ -101,7 +100,7 @@ class Runner:
         return counts
 
     def _execute(self, program, mark, log_file):
-        """Returns the exit code, or None after a time-out."""
+        """Returns the exit code, or None after a time-out, and the end of the output."""
         environment = owned_processes.marked_environment(mark, ROS_LOG_DIR=self._log_dir + "/ros",
                                                          ROS_HOSTNAME="localhost")
         self._live_marks.add(mark)
@@ -109,9 +108,9 @@ class Runner:
             process = subprocess.Popen(program.command, env=environment, stdin=subprocess.DEVNULL, stdout=log,
                                        stderr=subprocess.STDOUT, start_new_session=True)
             try:
-                return process.wait(TIMEOUT)
+                return process.wait(TIMEOUT), _tail(log_file)
             except subprocess.TimeoutExpired:
-                return None
+                return None, _tail(log_file)
             finally:
                 owned_processes.end_all(mark)
                 process.wait()

@@ -35,24 +35,25 @@ def count_file(path):
     return counts
 
 
-def count_program(result_file, sub_results, exit_code):
+def count_program(result_file, sub_results, exit_code, last_words):
     """The cases of one test program.
 
     `result_file` is the program's own; rostest writes a case per <test> tag there, and the cases inside each into
     `sub_results`. A program that failed without a failed case (a crash at its end, a test node that died before it
-    wrote anything) counts one failure.
+    wrote anything) counts one failure, told by `last_words`, the end of its output.
     """
+    if not os.path.exists(result_file):
+        return Counts(failures=[f"the program left no results\n{last_words}"])
     own = count_file(result_file)
+    counts = Counts()
+    for path in sub_results:
+        counts.add(count_file(path))
     if not sub_results:
         counts = own
-    else:
-        counts = Counts()
-        for path in sub_results:
-            counts.add(count_file(path))
-        if own.failures and not counts.failures:
-            counts.failures += own.failures
+    elif not counts.failures:
+        counts.failures += own.failures
     if exit_code != 0 and not counts.failures:
-        counts.failures.append(f"the program ended with exit code {exit_code}, though no case failed")
+        counts.failures.append(f"the program ended with exit code {exit_code}, though no case failed\n{last_words}")
     if not counts.passed and not counts.failures and not counts.skipped:
         counts.failures.append(f"{os.path.basename(result_file)} holds no test case")
     return counts

@@ -52,19 +52,29 @@ CommandStatus CommandService::admitAndExecute(std::int64_t wanted_id, std::uint6
   CommandStatus status;
   try {
     status = execute(admission.command_id);
-    ROS_INFO_STREAM(service_name_ << " " << status.command_id << ": " << status.message);
   } catch (...) {
     status = statusFrom(std::current_exception(), admission.command_id);
-    ROS_WARN_STREAM(service_name_ << " " << status.command_id << " refused: " << status.message);
   }
+  tell(status);
   if (hasEnded(status)) context().registry().update(status);
   return status;
 }
 
 CommandStatus CommandService::refuse(std::int64_t wanted_id) {
   const CommandStatus status = context().registry().refuse(statusFrom(std::current_exception(), wanted_id), id());
-  ROS_WARN_STREAM(service_name_ << " " << status.command_id << " refused: " << status.message);
+  tell(status);
   return status;
+}
+
+void CommandService::tell(const CommandStatus& status) const {
+  // A terminal or a disk that stalls must not delay an answer, or a STOP.
+  context().housekeeping().post([service = service_name_, status] {
+    if (status.status == CommandStatus::ERROR) {
+      ROS_WARN_STREAM(service << " " << status.command_id << " refused: " << status.message);
+    } else {
+      ROS_INFO_STREAM(service << " " << status.command_id << ": " << status.message);
+    }
+  });
 }
 
 void CommandService::log(CommandLogEntry entry) const {

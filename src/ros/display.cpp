@@ -7,6 +7,12 @@
 
 namespace external_command {
 
+namespace {
+
+constexpr double kDrawPeriod = 0.05;  // [s]
+
+}  // namespace
+
 Display::Display(ros::NodeHandle nh, const DisplayParams& params, std::shared_ptr<const HdMap> map)
     : params_(params), map_(std::move(map)) {
   path_publisher_ = nh.advertise<nav_msgs::Path>(params_.path_topic, 1, true);
@@ -14,6 +20,11 @@ Display::Display(ros::NodeHandle nh, const DisplayParams& params, std::shared_pt
   const ros::SubscriberStatusCallback greet_new = [this](const ros::SingleSubscriberPublisher& s) { greet(s); };
   markers_publisher_ = nh.advertise<visualization_msgs::MarkerArray>(
       params_.markers_topic, 10, greet_new, ros::SubscriberStatusCallback(), ros::VoidConstPtr(), true);
+  ros::SteadyTimerOptions options;
+  options.period = ros::WallDuration(kDrawPeriod);
+  options.callback = [this](const ros::SteadyTimerEvent&) { drawNewest(); };
+  options.callback_queue = lane_.queue();
+  timer_ = nh.createSteadyTimer(options);
 }
 
 void Display::greet(const ros::SingleSubscriberPublisher& subscriber) const {
@@ -24,16 +35,28 @@ void Display::greet(const ros::SingleSubscriberPublisher& subscriber) const {
 }
 
 void Display::show(CommandScene scene) {
-  lane_.post([this, scene = std::move(scene)] {
-    path_publisher_.publish(toNavPath(scene.path, params_.map_frame));
-    markers_publisher_.publish(commandMarkers(scene, map_.get(), params_.vehicle, params_.map_frame));
-  });
+  const std::lock_guard<std::mutex> lock(mutex_);
+  sent_ = std::move(scene);
+  refused_.reset();
 }
 
 void Display::showRefused(CommandScene scene) {
-  lane_.post([this, scene = std::move(scene)] {
-    markers_publisher_.publish(commandMarkers(scene, map_.get(), params_.vehicle, params_.map_frame));
-  });
+  const std::lock_guard<std::mutex> lock(mutex_);
+  refused_ = std::move(scene);
+}
+
+void Display::drawNewest() {
+  std::optional<CommandScene> sent, refused;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    sent.swap(sent_);
+    refused.swap(refused_);
+  }
+  if (sent) path_publisher_.publish(toNavPath(sent->path, params_.map_frame));
+  for (const auto& scene : {sent, refused}) {
+    if (!scene) continue;
+    markers_publisher_.publish(commandMarkers(*scene, map_.get(), params_.vehicle, params_.map_frame));
+  }
 }
 
 }  // namespace external_command

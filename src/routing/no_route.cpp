@@ -62,7 +62,7 @@ std::string tightChange(const HdMap& map, const Route& route) {
 std::string whyNoRoute(const HdMap& map, const LaneGraph& graph, const RouterParams& params, const RouteQuery& query,
                        const CancelToken& cancel) {
   const BlockedLanes blocked(query.black_list), free({});
-  const SearchResult failed = RouteSearch(graph, params, ChangeRule::kWithRoom).run(query, blocked, cancel);
+  const SearchResult failed = searchRoute(graph, params, ChangeRule::kWithRoom, query, blocked, cancel);
   const std::string what = text("no route from ", described(map, query, failed.failed_leg), " to ",
                                 described(map, query, failed.failed_leg + 1));
   for (const std::size_t end : {failed.failed_leg, failed.failed_leg + 1}) {
@@ -71,7 +71,7 @@ std::string whyNoRoute(const HdMap& map, const LaneGraph& graph, const RouterPar
                                          [&](const LanePoint& point) { return blocked.contains(point.lane, point.s); });
     if (all_blocked) return text(what, ": the black list covers the ", pointName(query, end));
   }
-  const SearchResult squeezed = RouteSearch(graph, params, ChangeRule::kWithoutRoom).run(query, blocked, cancel);
+  const SearchResult squeezed = searchRoute(graph, params, ChangeRule::kWithoutRoom, query, blocked, cancel);
   if (!squeezed.labels.empty()) {
     return text(what, ": there is no room to change lanes, ",
                 tightChange(map, buildRoute(graph, blocked, squeezed.labels)), " for one; a change needs ",
@@ -80,7 +80,7 @@ std::string whyNoRoute(const HdMap& map, const LaneGraph& graph, const RouterPar
                 metres(params.min_turning_radius));
   }
   if (!query.black_list.empty()) {
-    const SearchResult unblocked = RouteSearch(graph, params, ChangeRule::kWithRoom).run(query, free, cancel);
+    const SearchResult unblocked = searchRoute(graph, params, ChangeRule::kWithRoom, query, free, cancel);
     if (!unblocked.labels.empty()) {
       return text(what, ": the black list cuts it at lane ",
                   cutLanes(map, query.black_list, buildRoute(graph, free, unblocked.labels)),

@@ -6,7 +6,7 @@
 #include "blocked_lanes.h"
 #include "external_command/routing/router.h"
 #include "lane_graph.h"
-#include "route_search.h"
+#include "search_label.h"
 
 namespace external_command {
 

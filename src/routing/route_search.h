@@ -3,45 +3,9 @@
 
 #include <vector>
 
-#include "blocked_lanes.h"
-#include "external_command/core/cancel_token.h"
-#include "external_command/routing/router.h"
-#include "lane_graph.h"
+#include "label_search.h"
 
 namespace external_command {
-
-/// What a search holds lane changes to.
-enum class ChangeRule {
-  kWithRoom,     ///< `min_lane_change_length`, or, at a price, what two arcs of the smallest turning radius need
-  kWithoutRoom,  ///< no length at all: only tells why the other found nothing
-};
-
-/// A place the search has reached, and how it came there from `parent`.
-struct SearchLabel {
-  enum class Move : std::uint8_t {
-    kStart,     ///< at a start candidate
-    kFollow,    ///< to the end of the parent's lane, and onto the beginning of this one
-    kChange,    ///< along the parent's lane to `change_s`, and from there across onto this one
-    kContinue,  ///< on across from one lane to another, both begun further back
-    kArrive,    ///< along the parent's lane, which is this one, to a way point or goal
-  };
-
-  LaneIndex lane = 0;
-  double s = 0.0;         ///< [m]
-  double distance = 0.0;  ///< driven so far; from `anchor_s` on it counts along this lane [m]
-  double anchor_s = 0.0;  ///< where this stretch of road was entered, on this lane even if it was on one beside it [m]
-  double cost = 0.0;      ///< `distance` and the price of the lane changes [m]
-  double free_to = 0.0;   ///< how far one can drive on along the lane [m]
-  std::int32_t parent = -1;
-  std::int32_t next_on_lane = -1;
-  Move move = Move::kStart;
-  bool is_done = false;                 ///< settled, or beaten by a better label
-  LaneChange side = LaneChange::kNone;  ///< of kChange and kContinue
-  double change_s = 0.0;                ///< of kChange: on the parent's lane [m]
-  double from_s = 0.0;                  ///< of kChange and kContinue: where this lane is first abreast [m]
-  double change_length = 0.0;           ///< the least this change needs, along the lane changed to [m]
-  std::int32_t candidate = -1;          ///< of kStart and kArrive: which
-};
 
 /// The reached places of one query, from the start to the goal or to where it failed.
 struct SearchResult {
@@ -50,28 +14,9 @@ struct SearchResult {
   std::size_t reached_lanes = 0;    ///< in the leg that failed
 };
 
-/// Shortest route by label setting (Dijkstra) over places on lanes.
-///
-/// A label is a place (lane, s). From it one drives on: to the successors, whose beginning becomes a label, to targets
-/// on the lane, and to the neighbour lanes. A change begins where it first can, at the label or where the line becomes
-/// crossable, runs over `length` metres during which both lanes lie abreast and are free, over as many pieces of the
-/// two lanes as that takes, and ends in a label on the other lane. Beginning a change later than it first can never
-/// helps, so these labels are enough. One label beats another on the same lane where it lies further back and whoever
-/// drives on from it arrives no later: more than one can be needed per lane, as a place behind a goal does not replace
-/// one before it.
-class RouteSearch {
- public:
-  RouteSearch(const LaneGraph& graph, const RouterParams& params, ChangeRule rule);
-
-  /// @throws Cancelled
-  SearchResult run(const RouteQuery& query, const BlockedLanes& blocked, const CancelToken& cancel) const;
-
- private:
-  class Run;
-
-  const LaneGraph& graph_;
-  const RouterParams& params_;
-  ChangeRule rule_;
-};
+/// Shortest route through the way points in order, lane by lane: a search over the whole graph.
+/// @throws Cancelled
+SearchResult searchRoute(const LaneGraph& graph, const RouterParams& params, ChangeRule rule, const RouteQuery& query,
+                         const BlockedLanes& blocked, const CancelToken& cancel);
 
 }  // namespace external_command

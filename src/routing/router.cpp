@@ -101,7 +101,7 @@ Route Router::findRoute(const RouteQuery& request, const CancelToken& cancel) co
   const LaneGraph& graph = impl_->graph;
   const RouteQuery query = checked(request, graph, map());
   const BlockedLanes blocked(query.black_list);
-  const SearchResult found = RouteSearch(graph, impl_->params, ChangeRule::kWithRoom).run(query, blocked, cancel);
+  const SearchResult found = searchRoute(graph, impl_->params, ChangeRule::kWithRoom, query, blocked, cancel);
   if (found.labels.empty()) throw NoRoute(whyNoRoute(map(), graph, impl_->params, query, cancel));
   Route route = buildRoute(graph, blocked, found.labels);
   warnOfTightChanges(map(), impl_->params.min_lane_change_length, &route);

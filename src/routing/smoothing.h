@@ -9,8 +9,8 @@ namespace external_command {
 
 /// Smooths a curve of evenly spaced points: minimizes the squared distances to the given points plus
 /// `scale`^6 times the squared third differences (a discrete smoothing spline, Whittaker 1923), which leaves circles
-/// as they are and takes out what is shorter than some `scale` points (at most 30). The points `first` and `last` stay where they
-/// are. O(n).
+/// as they are and takes out what is shorter than some `scale` points (at most 30). The points `first` and `last` stay
+/// where they are. O(n).
 void smooth(double scale, std::size_t first, std::size_t last, std::vector<Point2d>* points);
 
 }  // namespace external_command

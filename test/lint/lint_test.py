@@ -17,9 +17,14 @@ ROS_INCLUDE = re.compile(
 # Types of these libraries stay inside; who links this package need not find them.
 PRIVATE_INCLUDE = re.compile(r'#include\s*[<"](ompl|google/protobuf|[^>"]*\.pb\.h)')
 SOURCES = (".h", ".cpp", ".py", ".cmake", ".proto", ".sh", "CMakeLists.txt")
+LICENCE = "SPDX-License-Identifier: Apache-2.0"
 MAX_LINES = 400
-# Library names begin with the package's name but are names of their own; a checkout may have any folder name.
-CATKIN_LINT_IGNORES = ("literal_project_name", "package_path_name")
+CATKIN_LINT_IGNORES = (
+    "literal_project_name",  # names of libraries begin with the package's, but are names of their own
+    "package_path_name",  # a checkout may lie in a folder of any name
+    "uninstalled_script",  # those that build and test are for the checkout only
+    "unused_include_path",  # used by target_include_directories, in a function that catkin_lint does not see into
+)
 BUILT = ("build", "CMakeFiles", "__pycache__")
 
 
@@ -76,7 +81,7 @@ class LintTest(unittest.TestCase):
 
     def test_every_source_names_its_licence(self):
         nameless = [os.path.relpath(path, ROOT) for path in files() + scripts()
-                    if "SPDX-License-Identifier: Apache-2.0" not in "".join(read(path).splitlines(True)[:4])]
+                    if os.path.getsize(path) > 0 and LICENCE not in "".join(read(path).splitlines(True)[:4])]
         self.assertEqual([], nameless)
 
     def test_no_source_is_too_long(self):

@@ -65,8 +65,8 @@ class CommandRegistry {
     bool was_sent = false;
     bool is_silent = false;
     bool has_own_message = false;  ///< its processor says more than the vehicle's reports
-    ros::Time sent_at;          ///< to compare with the stamps of reports
-    ros::WallTime last_report;  ///< or when it was sent
+    ros::Time sent_at;             ///< to compare with the stamps of reports
+    ros::WallTime last_report;     ///< or when it was sent
   };
 
   Record& add(std::int64_t command_id, const std::string& processor);

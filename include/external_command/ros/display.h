@@ -4,6 +4,8 @@
 #include <ros/node_handle.h>
 
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
 
 #include "external_command/ros/dedicated_lane.h"
@@ -19,8 +21,9 @@ struct DisplayParams {
   VehicleParams vehicle;
 };
 
-/// Shows map and commands in rviz, on a thread of its own: drawing never delays an answer. Thread-safe.
-/// The map goes to each subscriber once, when it connects; after that only what a command changes is sent.
+/// Shows map and commands in rviz, on a thread of its own and at most 20 times a second: drawing never delays an
+/// answer, and of commands that follow one another faster only the newest is drawn. Thread-safe. The map goes to each
+/// subscriber once, when it connects; after that only what a command changes is sent.
 class Display {
  public:
   /// @param map  may be nullptr.
@@ -34,12 +37,16 @@ class Display {
   void showRefused(CommandScene scene);
 
  private:
+  void drawNewest();
   void greet(const ros::SingleSubscriberPublisher& subscriber) const;
 
   const DisplayParams params_;
   const std::shared_ptr<const HdMap> map_;
   DedicatedLane lane_;  // before the publisher that is bound to its queue
   ros::Publisher path_publisher_, markers_publisher_;
+  std::mutex mutex_;
+  std::optional<CommandScene> sent_, refused_;  ///< still to be drawn
+  ros::SteadyTimer timer_;
 };
 
 }  // namespace external_command

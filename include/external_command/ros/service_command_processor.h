@@ -51,6 +51,9 @@ class CommandService : public CommandProcessor {
   /// The status of a request refused by an exception that is being handled. Logs it.
   CommandStatus refuse(std::int64_t wanted_id);
 
+  /// Writes the answer to the log, behind the answer itself.
+  void tell(const CommandStatus& status) const;
+
   /// True where somebody records the requests and their answers.
   bool isLogged() const { return log_publisher_.getNumSubscribers() > 0; }
   void log(CommandLogEntry entry) const;

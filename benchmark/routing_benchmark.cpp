@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// routing_benchmark [--city CROSSINGS_PER_SIDE]... FILE...
+// Measures, for each map file and made-up city, how long routes between random places of its lanes take, and their
+// reference paths. Prints one JSON array.
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <random>
+#include <sstream>
+
+#include "external_command/map/map_reader.h"
+#include "external_command/routing/reference_path.h"
+#include "grid_city.h"
+
+namespace external_command {
+namespace {
+
+constexpr int kQueries = 1000;
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+double quantile(std::vector<double>* values, double share) {
+  if (values->empty()) return 0.0;
+  const auto at = values->begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values->size() - 1));
+  std::nth_element(values->begin(), at, values->end());
+  return *at;
+}
+
+class Measurement {
+ public:
+  explicit Measurement(std::shared_ptr<const HdMap> map) : map_(std::move(map)) {
+    for (LaneIndex i = 0; i < map_->lanes().size(); ++i) {
+      if (map_->lane(i).isDrivable()) lanes_.push_back(i);
+    }
+  }
+
+  std::string run(const std::string& name) {
+    const double begin = now();
+    const Router router(map_, RouterParams());
+    const double build = now() - begin;
+    for (int i = 0; i < kQueries; ++i) query(router);
+    std::ostringstream out;
+    out << "{\"map\": \"" << name << "\", \"lanes\": " << lanes_.size() << ", \"router_build_s\": " << build
+        << ", \"queries\": " << kQueries << ", \"without_route\": " << kQueries - route_times_.size()
+        << ", \"route_us_median\": " << 1e6 * quantile(&route_times_, 0.5)
+        << ", \"route_us_p99\": " << 1e6 * quantile(&route_times_, 0.99)
+        << ", \"route_m_median\": " << quantile(&distances_, 0.5)
+        << ", \"path_us_per_km_median\": " << 1e6 * quantile(&path_times_per_km_, 0.5)
+        << ", \"no_route_us_median\": " << 1e6 * quantile(&failure_times_, 0.5) << "}";
+    return out.str();
+  }
+
+ private:
+  LanePoint anyPlace() {
+    const LaneIndex lane = lanes_[std::uniform_int_distribution<std::size_t>(0, lanes_.size() - 1)(random_)];
+    return {lane, std::uniform_real_distribution<double>(0.0, map_->lane(lane).length())(random_)};
+  }
+
+  void query(const Router& router) {
+    const RouteQuery query{{anyPlace()}, {}, {anyPlace()}, {}};
+    const double begin = now();
+    try {
+      const Route route = router.findRoute(query, CancelToken());
+      const double found = now();
+      const Path path = referencePath(*map_, route, VehicleParams(), ReferencePathParams(), 0.0);
+      const double end = now();
+      route_times_.push_back(found - begin);
+      distances_.push_back(route.distance);
+      if (path.back().s > 100.0) path_times_per_km_.push_back((end - found) / path.back().s * 1000.0);
+    } catch (const NoRoute&) {
+      failure_times_.push_back(now() - begin);
+    }
+  }
+
+  std::shared_ptr<const HdMap> map_;
+  std::vector<LaneIndex> lanes_;
+  std::mt19937 random_{1};
+  std::vector<double> route_times_, failure_times_, distances_, path_times_per_km_;
+};
+
+int run(int argc, char** argv) {
+  std::string separator = "[";
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const bool is_city = argument == "--city" && i + 1 < argc;
+    const std::string name = is_city ? std::string("city ") + argv[++i] : argument;
+    const auto map =
+        is_city ? std::make_shared<const HdMap>(gridCity(std::stoi(argv[i])), Point2d::Zero()) : readMap(argument, {});
+    std::cout << separator << Measurement(map).run(name) << std::flush;
+    separator = ",\n ";
+  }
+  std::cout << "]\n";
+  return 0;
+}
+
+}  // namespace
+}  // namespace external_command
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    std::cerr << "usage: " << argv[0] << " [--city CROSSINGS_PER_SIDE]... FILE...\n";
+    return 2;
+  }
+  try {
+    return external_command::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << "\n";
+    return 1;
+  }
+}

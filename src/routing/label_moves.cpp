@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "abreast.h"
+#include "label_search.h"
+#include "search_workspace.h"
+
+namespace external_command {
+
+namespace {
+
+constexpr double kChangePrice = 0.01;  // [m] per lane change: routes that differ by less count as equal
+constexpr double kSamePlace = 0.001;   // [m]
+constexpr double kTiny = 1e-9;         // [m]
+constexpr int kMaxChangePieces = 64;   // over which one change may run
+
+/// Sideways by `offset` on two arcs of `radius`: the shortest way, by plane geometry.
+double twoArcLength(double offset, double radius) {
+  return offset >= 2.0 * radius ? 2.0 * radius : std::sqrt(offset * (4.0 * radius - offset));
+}
+
+}  // namespace
+
+void LabelSearch::expand(std::int32_t index) {
+  const SearchLabel label = work_.labels[index];  // a copy: the labels move when one is added
+  arrive(index, label);
+  follow(index, label);
+  for (const Neighbour& neighbour : graph_.neighbours(label.lane)) change(index, label, neighbour);
+}
+
+void LabelSearch::arrive(std::int32_t index, const SearchLabel& label) {
+  for (std::int32_t i = work_.slotOf(label.lane).first_target; i >= 0; i = work_.targets[i].next_on_lane) {
+    const SearchWorkspace::Target& target = work_.targets[i];
+    if (target.is_reached || target.s < label.s - kSamePlace || target.s > label.free_to) continue;
+    SearchLabel arrival = label;
+    arrival.s = std::max(label.s, target.s);
+    arrival.distance += arrival.s - label.s;
+    arrival.cost += arrival.s - label.s;
+    arrival.parent = index;
+    arrival.move = Move::kArrive;
+    arrival.is_done = false;
+    arrival.candidate = target.candidate;
+    enqueue(store(arrival));
+  }
+}
+
+void LabelSearch::follow(std::int32_t index, const SearchLabel& label) {
+  const double length = graph_.length(label.lane);
+  if (label.free_to < length) return;
+  for (const LaneIndex next : graph_.successors(label.lane)) {
+    if (blocked_.contains(next, 0.0)) continue;
+    SearchLabel entry;
+    entry.lane = next;
+    entry.distance = label.distance + length - label.s;
+    entry.cost = label.cost + length - label.s;
+    entry.parent = index;
+    entry.move = Move::kFollow;
+    add(entry);
+  }
+}
+
+void LabelSearch::change(std::int32_t index, const SearchLabel& label, const Neighbour& neighbour) {
+  if (rule_ == ChangeRule::kWithoutRoom) return change(index, label, neighbour, 0.0, kChangePrice);
+  const double roomy = params_.min_lane_change_length;
+  const double tight = twoArcLength(neighbour.pair.offset, params_.min_turning_radius);
+  change(index, label, neighbour, roomy, kChangePrice);
+  if (tight < roomy) change(index, label, neighbour, tight, kChangePrice + params_.tight_lane_change_price);
+}
+
+void LabelSearch::change(std::int32_t index, const SearchLabel& label, const Neighbour& neighbour, double length,
+                         double price) {
+  const LanePair& pair = neighbour.pair;
+  const Crossing crossing{label.lane, length, length, price, 0};
+  for (const Interval& part : graph_.crossableParts(neighbour)) {
+    const Interval old_part{std::max(part.from, label.s), std::min(part.to, label.free_to)};
+    if (old_part.to - old_part.from < (length > 0.0 ? kTiny : 0.0)) continue;
+    const Interval new_part{pair.toB(old_part.from), pair.toB(old_part.to)};
+    if (blocked_.empty()) {
+      cross(index, neighbour, old_part.from, new_part, crossing);
+      continue;
+    }
+    for (const Interval& free : blocked_.freeParts(pair.b, new_part.from, new_part.to)) {
+      cross(index, neighbour, pair.toA(free.from), free, crossing);
+    }
+  }
+}
+
+/// From `old_s`, abreast of `new_part.from` on the neighbour, across; `new_part` is what can be used for it.
+void LabelSearch::cross(std::int32_t index, const Neighbour& neighbour, double old_s, const Interval& new_part,
+                        Crossing crossing) {
+  const bool begins = crossing.pieces == 0;
+  const SearchLabel& parent = work_.labels[index];
+  const double room = new_part.to - new_part.from;
+  const double anchor = begins ? neighbour.pair.toB(parent.anchor_s) : parent.anchor_s;
+  const double to_begin = begins ? (new_part.from - anchor) - (parent.s - parent.anchor_s) : 0.0;
+  const double driven = to_begin + std::min(room, crossing.rest);
+  SearchLabel label;
+  label.lane = neighbour.pair.b;
+  label.s = new_part.from + std::min(room, crossing.rest);
+  label.distance = parent.distance + driven;
+  label.cost = parent.cost + driven + (begins ? crossing.price : 0.0);
+  label.parent = index;
+  label.move = begins ? Move::kChange : Move::kContinue;
+  label.side = neighbour.pair.side;
+  label.change_s = old_s;
+  label.from_s = new_part.from;
+  label.anchor_s = begins || label.lane == parent.lane ? anchor : 0.0;
+  label.change_length = crossing.length;
+  if (room >= crossing.rest - kTiny) return add(label);
+  if (new_part.to < neighbour.pair.b_to - kSamePlace || crossing.pieces == kMaxChangePieces) return;
+  crossing.rest -= room;
+  ++crossing.pieces;
+  crossOn(store(label), neighbour.pair, crossing);
+}
+
+/// The pair of lanes ends at label `index`, before the change is done: on to the pairs that follow.
+void LabelSearch::crossOn(std::int32_t index, const LanePair& pair, const Crossing& crossing) {
+  const bool old_ends = pair.a_to > graph_.length(crossing.old_lane) - kSamePlace;
+  const bool new_ends = pair.b_to > graph_.length(pair.b) - kSamePlace;
+  if (!old_ends && !new_ends) return;
+  const auto old_lanes = old_ends ? graph_.successors(crossing.old_lane) : Span<LaneIndex>(&crossing.old_lane);
+  const auto new_lanes = new_ends ? graph_.successors(pair.b) : Span<LaneIndex>(&pair.b);
+  const double old_s = old_ends ? 0.0 : pair.a_to;
+  const double new_s = new_ends ? 0.0 : pair.b_to;
+  for (const LaneIndex old_lane : old_lanes) {
+    for (const LaneIndex new_lane : new_lanes) {
+      const Neighbour* next = graph_.findNeighbour(old_lane, new_lane, pair.side);
+      if (next == nullptr) continue;
+      const double new_to = abreastUntil(graph_, blocked_, {old_lane, old_s}, *next, new_s);
+      if (new_to <= new_s) continue;
+      cross(index, *next, old_s, {new_s, new_to}, {old_lane, crossing.length, crossing.rest, 0.0, crossing.pieces});
+    }
+  }
+}
+
+}  // namespace external_command

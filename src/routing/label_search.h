@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "blocked_lanes.h"
+#include "external_command/core/cancel_token.h"
+#include "lane_graph.h"
+#include "search_label.h"
+
+namespace external_command {
+
+struct SearchWorkspace;
+
+/// Shortest routes by label setting (Dijkstra) over places on lanes, leg by leg.
+///
+/// A label is a place (lane, s). From it one drives on: to the successors, whose beginning becomes a label, to targets
+/// on the lane, and to the neighbour lanes. A change begins where it first can, at the label or where the line becomes
+/// crossable, runs over `length` metres during which both lanes lie abreast and are free, over as many pieces of the
+/// two lanes as that takes, and ends in a label on the other lane. Beginning a change later than it first can never
+/// helps, so these labels are enough. One label beats another on the same lane where it lies further back and whoever
+/// drives on from it arrives no later: more than one can be needed per lane, as a place behind a goal does not replace
+/// one before it.
+///
+/// One at a time per thread: the memory is kept from one search to the next. The arguments must outlive the search.
+class LabelSearch {
+ public:
+  /// How far a leg goes.
+  enum class Reach {
+    kToFirst,    ///< until the nearest target is reached
+    kToAll,      ///< until all are
+    kToEntries,  ///< until all are, but no further than to the beginnings of the next lanes
+  };
+
+  LabelSearch(const LaneGraph& graph, const RouterParams& params, ChangeRule rule, const BlockedLanes& blocked,
+              const CancelToken& cancel);
+
+  void beginLeg(const std::vector<LanePoint>& targets);
+  void addStart(const LanePoint& start, std::int32_t candidate);
+
+  /// Starts where an earlier leg ended, at its cost.
+  void leaveFrom(std::int32_t arrival);
+
+  /// @return the labels of the targets that can be reached, the cheapest first.
+  /// @throws Cancelled
+  std::vector<std::int32_t> drive(Reach reach);
+
+  /// Of a leg with kToEntries: the labels at the beginnings of the next lanes.
+  const std::vector<std::int32_t>& entries() const { return entries_; }
+
+  std::size_t reachedLanes() const { return reached_lanes_; }
+  const SearchLabel& label(std::int32_t index) const;
+
+  /// Adds a label that was found otherwise.
+  std::int32_t store(const SearchLabel& label);
+
+  /// The labels that lead to this one, from the first start on.
+  std::vector<SearchLabel> wayTo(std::int32_t index) const;
+
+ private:
+  using Move = SearchLabel::Move;
+  using Neighbour = LaneGraph::Neighbour;
+
+  /// A change under way from `old_lane`: `rest` of its `length` [m] is still to be driven, `pieces` pairs of lanes lie
+  /// behind.
+  struct Crossing {
+    LaneIndex old_lane;
+    double length;
+    double rest;
+    double price;
+    int pieces;
+  };
+
+  void add(SearchLabel label);
+  void enqueue(std::int32_t index);
+  bool isBeaten(const SearchLabel& label, std::int32_t first_on_lane);
+  void expand(std::int32_t index);
+  void arrive(std::int32_t index, const SearchLabel& label);
+  void follow(std::int32_t index, const SearchLabel& label);
+  void change(std::int32_t index, const SearchLabel& label, const Neighbour& neighbour);
+  void change(std::int32_t index, const SearchLabel& label, const Neighbour& neighbour, double length, double price);
+  void cross(std::int32_t index, const Neighbour& neighbour, double old_s, const Interval& new_part, Crossing crossing);
+  void crossOn(std::int32_t index, const LanePair& pair, const Crossing& crossing);
+
+  const LaneGraph& graph_;
+  const RouterParams& params_;
+  const ChangeRule rule_;
+  const BlockedLanes& blocked_;
+  const CancelToken& cancel_;
+  SearchWorkspace& work_;
+  std::vector<std::int32_t> entries_;
+  std::size_t reached_lanes_ = 0;
+};
+
+}  // namespace external_command

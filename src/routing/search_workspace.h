@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "search_label.h"
+
+namespace external_command {
+
+/// Memory of LabelSearch that outlives a query, so that the next one of this thread need not clear or allocate it.
+struct SearchWorkspace {
+  struct QueueEntry {
+    double cost;
+    std::int32_t label;
+    bool operator<(const QueueEntry& other) const { return cost > other.cost; }  // the cheapest on top
+  };
+
+  struct Target {
+    double s;
+    std::int32_t candidate;
+    std::int32_t next_on_lane;
+    bool is_reached;
+  };
+
+  /// What the search knows of a lane; stale where `leg` is not that of the workspace.
+  struct LaneSlot {
+    std::uint64_t leg = 0;
+    std::int32_t first_label = -1;
+    std::int32_t first_target = -1;
+  };
+
+  LaneSlot& slotOf(LaneIndex lane) {
+    LaneSlot& slot = lanes[lane];
+    if (slot.leg != leg) slot = {leg, -1, -1};
+    return slot;
+  }
+
+  std::vector<SearchLabel> labels;
+  std::vector<QueueEntry> queue;
+  std::vector<Target> targets;
+  std::vector<LaneSlot> lanes;
+  std::uint64_t leg = 0;
+};
+
+}  // namespace external_command
