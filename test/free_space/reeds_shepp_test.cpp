@@ -59,7 +59,9 @@ TEST(ReedsShepp, SortsCurvesByLengthAndGearChanges) {
     ASSERT_FALSE(curves.empty());
     for (std::size_t i = 0; i < curves.size(); ++i) {
       ASSERT_NEAR(curves[i].cost, curves[i].length + 3.0 * curves[i].gear_changes, 1e-9);
-      if (i > 0) ASSERT_GE(curves[i].cost, curves[i - 1].cost);
+      if (i > 0) {
+        ASSERT_GE(curves[i].cost, curves[i - 1].cost);
+      }
     }
   }
 }

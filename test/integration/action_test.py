@@ -22,6 +22,8 @@ class ActionTest(unittest.TestCase):
         cls.vehicle = Vehicle()
         cls.planning = support.Collector("planning/pad", PlanningPad)
         cls.control = support.Collector("control/pad", ControlPad)
+        support.wait_until(
+            lambda: act(ActionCommand.SWITCH_TO_AUTO).error_code != CommandStatus.NOT_READY, "the chassis is heard")
 
     def setUp(self):
         self.finish(ActionCommand.SWITCH_TO_AUTO)
