@@ -80,7 +80,7 @@ ec_configure() {
 # Installs this package into install/ of the build folder, and builds each package of examples/, with its tests, on that.
 ec_build_examples() {
   local prefix=$EC_BUILD_DIR/install
-  EC_CMAKE_ARGS="${EC_CMAKE_ARGS-} -DCMAKE_INSTALL_PREFIX=$prefix" ec_build install >"$EC_BUILD_DIR/install.log"
+  EC_CMAKE_ARGS="${EC_CMAKE_ARGS-} -DCMAKE_INSTALL_PREFIX=$prefix -DCMAKE_INSTALL_MESSAGE=NEVER" ec_build install
   local example
   for example in $(ec_examples); do
     EC_ROOT=$EC_ROOT/examples/$example EC_BUILD_DIR=$(ec_example_build_dir "$example") \

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "external_command/coverage/coverage_planner.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -10,11 +11,120 @@
 #include "external_command/core/text.h"
 #include "field.h"
 #include "grid.h"
-#include "laps.h"
 #include "order.h"
-#include "swaths.h"
+#include "uncovered.h"
 
 namespace external_command {
+
+namespace {
+
+/// Of a square metre that stays unswept, as length, times the swath width: what it may cost to sweep the last corners.
+constexpr double kUnsweptPrice = 4.0;
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point began) { return std::chrono::duration<double>(Clock::now() - began).count(); }
+
+/// Drives the steps of a plan one after the other and keeps what the path and the statistics need.
+class PathBuilder {
+ public:
+  PathBuilder(const Field& field, const std::vector<Work>& works, const std::optional<Pose2d>& start,
+              CoverageResult* result)
+      : field_(field), works_(works), at_(start), swept_(field.makeGrid()), result_(result) {}
+
+  /// The swath was swept by an earlier run.
+  void count(const Step& step) { swept_.sweep(works_[step.work].ways[step.way], field_.width()); }
+
+  void drive(const Step& step, std::size_t index) {
+    const Curve way = works_[step.work].ways[step.way];
+    if (!field_.isBarelyFree(way)) {
+      result_->warnings.push_back(text("swath ", index, " is left out: the footprint would not stay inside"));
+      return;
+    }
+    if (at_ && !transfer(way.start, index)) return;
+    Swath swath;
+    swath.index = index;
+    swath.first = result_->path.empty() ? 0 : result_->path.size() - 1;
+    append(way, true);
+    swath.last = result_->path.size() - 1;
+    swath.length = way.length();
+    swath.covered_area = swept_.sweep(way, field_.width());
+    result_->working_length += swath.length;
+    result_->swaths.push_back(swath);
+    at_ = way.end();
+  }
+
+  void finish() {
+    Path& path = result_->path;
+    for (ReferencePoint& point : path) {
+      point.x += field_.origin().x();
+      point.y += field_.origin().y();
+      point.speed = field_.vehicle().max_speed;
+    }
+    setArcLengths(&path);
+    limitSpeeds(field_.vehicle(), &path);
+    result_->length = path.empty() ? 0.0 : path.back().s;
+    result_->gear_changes = gearChanges(path);
+    for (std::size_t i = 1; i < result_->swaths.size(); ++i) {
+      result_->turns += result_->swaths[i].first > result_->swaths[i - 1].last;
+    }
+    measure();
+  }
+
+ private:
+  bool transfer(const Pose2d& to, std::size_t index) {
+    const auto link = Connector(field_).connect(*at_, to);
+    if (link && field_.isBarelyFree(*link)) {
+      append(*link, false);
+      return true;
+    }
+    result_->warnings.push_back(text("swath ", index, " is left out: no way leads there from ", at(*at_)));
+    return false;
+  }
+
+  void append(const Curve& curve, bool tool_on) {
+    Path points = sampleArcs(curve.start, curve.arcs, field_.params().spacing);
+    for (ReferencePoint& point : points) point.tool_on = tool_on;
+    Path& path = result_->path;
+    path.insert(path.end(), points.begin() + (path.empty() ? 0 : 1), points.end());
+  }
+
+  void measure() {
+    CoverageResult& result = *result_;
+    result.free_area = swept_.area(kFree, 0);
+    result.reachable_area = swept_.area(kGoal, 0);
+    result.covered_area = swept_.area(kFree | kSwept, 0);
+    result.covered_free = result.covered_area / std::max(result.free_area, 1e-9);
+    result.coverage_ratio = swept_.area(kGoal | kSwept, 0) / std::max(result.reachable_area, 1e-9);
+    double new_area = 0.0;
+    for (const Swath& swath : result.swaths) new_area += swath.covered_area;
+    const double strips = result.working_length * field_.width();
+    result.overlap = new_area > 0.0 ? std::max(0.0, strips / new_area - 1.0) : 0.0;
+    result.uncovered = uncoveredParts(swept_, field_.origin());
+  }
+
+  const Field& field_;
+  const std::vector<Work>& works_;
+  std::optional<Pose2d> at_;
+  CoverageGrid swept_;
+  CoverageResult* result_;
+};
+
+void requireKnownSwaths(const CoverageProgress& progress, std::size_t total) {
+  const auto require = [&](std::size_t index, const char* name) {
+    if (index < total) return;
+    throw InvalidRequest(text(name, " ", index, " is not in the plan; its swaths are 0 to ", total - 1));
+  };
+  require(progress.first_swath, "first swath");
+  for (const std::size_t index : progress.skipped) require(index, "skipped swath");
+}
+
+std::optional<Pose2d> localPose(const std::optional<Pose2d>& pose, const Point2d& origin) {
+  if (!pose) return std::nullopt;
+  return Pose2d{pose->x - origin.x(), pose->y - origin.y(), pose->heading};
+}
+
+}  // namespace
 
 CoveragePlanner::CoveragePlanner(const VehicleParams& vehicle, const CoverageParams& params)
     : vehicle_(vehicle), params_(params) {
@@ -24,51 +134,43 @@ CoveragePlanner::CoveragePlanner(const VehicleParams& vehicle, const CoveragePar
 
 CoverageResult CoveragePlanner::plan(const CoverageArea& area, const std::optional<Pose2d>& start,
                                      const CoverageProgress& progress, const CancelToken& cancel) const {
-  (void)progress;
-  const auto began = std::chrono::steady_clock::now();
-  const Field field(vehicle_, params_, area, start, cancel);
-  const double price = (getenv("PRICE") ? atof(getenv("PRICE")) : 4.0) / field.width();
-  const std::vector<Draft> drafts = makeDrafts(field, price);
-  if (getenv("V")) for (auto& d : drafts) fprintf(stderr, "laps %d cost %.1f works %zu\n", d.laps, d.cost, d.works.size());
-  const std::vector<Work>& works = drafts.front().works;
-  CoverageResult result;
-  Curve path;
-  std::vector<bool> tool;
-  std::optional<Pose2d> at = field.start();
-  const Connector connector(field);
-  Routes routes(field);
-  CoverageGrid done = field.makeGrid();
-  for (const Step& step : orderOf(field, works, &routes)) {
-    const Curve& way = works[step.work].ways[step.way];
-    Path points;
-    if (at) {
-      const auto link = connector.connect(*at, way.start);
-      if (!link) {
-        result.warnings.push_back(text("no way from ", external_command::at(*at), " to ", external_command::at(way.start)));
-        continue;
-      }
-      points = sampleArcs(link->start, link->arcs, params_.spacing);
-      result.path.insert(result.path.end(), points.begin() + (result.path.empty() ? 0 : 1), points.end());
-    }
-    const std::size_t first = result.path.empty() ? 0 : result.path.size() - 1;
-    points = sampleArcs(way.start, way.arcs, params_.spacing);
-    for (ReferencePoint& point : points) point.tool_on = true;
-    result.path.insert(result.path.end(), points.begin() + (result.path.empty() ? 0 : 1), points.end());
-    Swath swath;
-    swath.index = result.swaths.size();
-    swath.first = first;
-    swath.last = result.path.size() - 1;
-    swath.length = way.length();
-    swath.covered_area = done.sweep(way, field.width());
-    result.swaths.push_back(swath);
-    at = way.end();
+  const auto began = Clock::now();
+  const Field field(vehicle_, params_, area, progress.planned_from ? progress.planned_from : start, cancel);
+  const std::vector<Draft> drafts = makeDrafts(field, kUnsweptPrice / field.width());
+  if (drafts.empty() || drafts.front().works.empty()) {
+    throw NoPath("no swath fits into the area; is it too narrow for the vehicle to turn in?");
   }
-  result.reachable_area = done.area(kGoal, 0);
-  result.coverage_ratio = done.area(kGoal | kSwept, 0) / done.area(kGoal, 0);
-  for (ReferencePoint& point : result.path) point.x += field.origin().x(), point.y += field.origin().y();
-  setArcLengths(&result.path);
-  result.length = result.path.empty() ? 0.0 : result.path.back().s;
-  result.planning_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  const std::vector<Work>& works = drafts.front().works;
+  Routes routes(field);
+  const std::vector<Step> steps = orderOf(field, works, &routes);
+  requireKnownSwaths(progress, steps.size());
+
+  CoverageResult result;
+  result.total_swaths = steps.size();
+  PathBuilder builder(field, works, localPose(start, field.origin()), &result);
+  const auto is_skipped = [&](std::size_t index) {
+    return std::find(progress.skipped.begin(), progress.skipped.end(), index) != progress.skipped.end();
+  };
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (i < progress.first_swath && !is_skipped(i)) builder.count(steps[i]);
+  }
+  const auto drive = [&](std::size_t index) {
+    cancel.throwIfCancelled();
+    if (secondsSince(began) > params_.time_budget) {
+      throw PlanningTimeout(text("the area was not planned within ", params_.time_budget, " s (time_budget)"));
+    }
+    builder.drive(steps[index], index);
+  };
+  for (std::size_t i = progress.first_swath; i < steps.size(); ++i) {
+    if (!is_skipped(i)) drive(i);
+  }
+  for (const std::size_t index : progress.skipped) drive(index);
+  if (result.swaths.empty()) {
+    throw NoPath(text("no swath can be reached", start ? text(" from ", at(*start)) : std::string(), "; ",
+                      result.warnings.empty() ? "" : result.warnings.front()));
+  }
+  builder.finish();
+  result.planning_time = secondsSince(began);
   return result;
 }
 

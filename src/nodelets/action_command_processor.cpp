@@ -122,7 +122,7 @@ CommandStatus ActionCommandProcessor::sendAndWatch(const ActionCommand& command)
   } else {
     sendToPlanning(kPlanningPads.at(command.command));
   }
-  const CommandStatus status =
+  CommandStatus status =
       makeStatus(command.command_id, CommandStatus::RUNNING, ErrorCode::kOk, nameOfAction(command.command) + " sent");
   context().registry().update(status);
   return status;

@@ -98,7 +98,7 @@ CommandStatus ChassisCommandProcessor::execute(const ChassisCommand& command, co
     return makeStatus(command.command_id, CommandStatus::FINISHED, ErrorCode::kOk,
                       "sent; it changes no signal that could be waited for");
   }
-  const CommandStatus status = makeStatus(command.command_id, CommandStatus::RUNNING, ErrorCode::kOk, "sent");
+  CommandStatus status = makeStatus(command.command_id, CommandStatus::RUNNING, ErrorCode::kOk, "sent");
   context().registry().update(status);
   return status;
 }

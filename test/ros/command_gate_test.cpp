@@ -67,6 +67,12 @@ TEST_F(Gate, TellsWhoCancelled) {
   EXPECT_THROW(gate_.requireCurrent(newer), Cancelled);
 }
 
+TEST_F(Gate, TellsWhichCommandAStopFindsRunning) {
+  EXPECT_FALSE(gate_.stop({}).has_value());
+  gate_.commit(gate_.begin(7, gate_.arrive()), publishing());
+  EXPECT_EQ(gate_.stop({}), 7);
+}
+
 TEST_F(Gate, PublishesTheStopItself) {
   gate_.stop(publishing());
   EXPECT_EQ(published_, 1);

@@ -84,6 +84,15 @@ TEST(Checks, NameFieldValueAndExpectation) {
   EXPECT_NE(refusalOf([] { checkWayPoints(std::vector<Pose>(1001), false); }).find("1001"), std::string::npos);
 }
 
+TEST(Checks, RefuseStampsFarFromNow) {
+  ros::Time::init();
+  EXPECT_NO_THROW(requireFresh(ros::Time(), 2.0)) << "not given";
+  EXPECT_NO_THROW(requireFresh(ros::Time::now() - ros::Duration(1.0), 2.0));
+  EXPECT_NO_THROW(requireFresh(ros::Time::now() + ros::Duration(1.0), 2.0));
+  EXPECT_THROW(requireFresh(ros::Time::now() - ros::Duration(3.0), 2.0), StaleRequest);
+  EXPECT_THROW(requireFresh(ros::Time::now() + ros::Duration(3.0), 2.0), StaleRequest);
+}
+
 TEST(Checks, DoNotLookAtAHeadingThatIsNotGiven) {
   Pose pose;
   pose.heading = std::nan("");

@@ -1,14 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The processors of this package, loaded by external_command's component."""
+import os
 import queue
+import subprocess
+import tempfile
 import unittest
 
+import rosbag
 import rospy
 import rostest
 
 from external_command import any_message
-from external_command.msg import CommandStatus, PlanningCommand, Pose
+from external_command.msg import CommandLogEntry, CommandStatus, PlanningCommand, Pose
 from external_command.srv import GetCommandStatus
 from parcel_station.msg import DeliverParcelCommand, HatchCommand
 from parcel_station.srv import DeliverParcel, Hatch
@@ -72,6 +76,25 @@ class ParcelStationTest(unittest.TestCase):
         self.assertEqual(commands.get(timeout=DEADLINE).compartment, 4)
         self.assert_refused(hatch(HatchCommand(compartment=5)).status, "compartment", "5", "4")
         subscriber.unregister()
+
+    def test_a_recorded_command_is_sent_again(self):
+        logged, opened = queue.Queue(), queue.Queue()
+        subscribers = [rospy.Subscriber("external_command/log", CommandLogEntry, logged.put),
+                       rospy.Subscriber("parcel_station/hatch_command", HatchCommand, opened.put)]
+        while any(subscriber.get_num_connections() == 0 for subscriber in subscribers):
+            rospy.sleep(0.01)
+        service("parcel_station/hatch", Hatch)(HatchCommand(compartment=3, open=True))
+        first = opened.get(timeout=DEADLINE)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "log.bag")
+            with rosbag.Bag(path, "w") as bag:
+                bag.write("external_command/log", logged.get(timeout=DEADLINE))
+            subprocess.run(["rosrun", "external_command", "replay_commands", "--immediate", path], check=True)
+        again = opened.get(timeout=DEADLINE)
+        self.assertEqual((again.compartment, again.open), (3, True))
+        self.assertNotEqual(again.command_id, first.command_id)
+        for subscriber in subscribers:
+            subscriber.unregister()
 
 
 if __name__ == "__main__":

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "external_command/coverage/coverage_planner.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "external_command/core/error.h"
+#include "external_command/free_space/collision_checker.h"
+
+namespace external_command {
+namespace {
+
+/// A small sweeper, 2.6 m long and 1.3 m wide, that turns at 2.5 m.
+VehicleParams sweeper() {
+  VehicleParams vehicle;
+  vehicle.wheelbase = 1.6;
+  vehicle.width = 1.3;
+  vehicle.front_overhang = 0.5;
+  vehicle.rear_overhang = 0.5;
+  vehicle.min_turning_radius = 2.5;
+  return vehicle;
+}
+
+Polygon box(double x0, double y0, double x1, double y1) {
+  return Polygon({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, "box");
+}
+
+CoverageParams params() {
+  CoverageParams params;
+  params.swath_width = 1.6;
+  params.time_budget = 60.0;  // the tests' machine may be slow; the plan does not depend on it
+  return params;
+}
+
+const Pose2d kStart{5.0, 5.0, 0.0};
+
+CoverageResult planned(const CoverageArea& area, const CoverageProgress& progress = {}) {
+  return CoveragePlanner(sweeper(), params()).plan(area, kStart, progress, {});
+}
+
+/// Every pose of the path keeps the whole footprint inside; between neighbours the vehicle moves as a car does.
+testing::AssertionResult isDrivable(const Path& path, const CoverageArea& area) {
+  Region::Parts parts;
+  parts.drivable = area.outer;
+  parts.non_drivable = area.holes;
+  const CollisionChecker checker(sweeper(), 0.0, Region(std::move(parts)));
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (!checker.isFree(path[i].pose())) return testing::AssertionFailure() << "point " << i << " is not inside";
+    if (i == 0) continue;
+    const double step = (path[i].pose().position() - path[i - 1].pose().position()).norm();
+    if (step > params().spacing + 1e-6) return testing::AssertionFailure() << "jump of " << step << " m at " << i;
+    const double turn = std::abs(angleBetween(path[i - 1].heading, path[i].heading));
+    if (turn > 1.02 * (path[i].s - path[i - 1].s) / sweeper().min_turning_radius + 1e-3) {
+      return testing::AssertionFailure() << "turns by " << turn << " rad at " << i;
+    }
+  }
+  return testing::AssertionSuccess();
+}
+
+TEST(CoveragePlanner, SweepsARectangle) {
+  const CoverageArea area{box(0, 0, 40, 30), {}};
+  const CoverageResult result = planned(area);
+  EXPECT_GT(result.coverage_ratio, 0.95);
+  EXPECT_NEAR(result.free_area, 1200.0, 12.0);
+  EXPECT_TRUE(isDrivable(result.path, area));
+  EXPECT_LT((result.path.front().pose().position() - kStart.position()).norm(), 1e-6);
+  EXPECT_EQ(result.swaths.size(), result.total_swaths);
+}
+
+TEST(CoveragePlanner, KeepsOutOfHoles) {
+  const CoverageArea area{box(0, 0, 40, 30), {box(18, 12, 22, 16), box(30, 20, 31, 21)}};
+  const CoverageResult result = planned(area);
+  EXPECT_GT(result.coverage_ratio, 0.9);
+  EXPECT_TRUE(isDrivable(result.path, area));
+}
+
+TEST(CoveragePlanner, WorksOnSwathsAndNowhereElse) {
+  const CoverageResult result = planned({box(0, 0, 40, 30), {}});
+  std::set<std::size_t> working;
+  for (const Swath& swath : result.swaths) {
+    for (std::size_t i = swath.first + 1; i <= swath.last; ++i) working.insert(i);
+  }
+  for (std::size_t i = 0; i < result.path.size(); ++i) EXPECT_EQ(result.path[i].tool_on, working.count(i) == 1) << i;
+}
+
+TEST(CoveragePlanner, IsRepeatable) {
+  const CoverageResult first = planned({box(0, 0, 30, 20), {}}), second = planned({box(0, 0, 30, 20), {}});
+  ASSERT_EQ(first.path.size(), second.path.size());
+  for (std::size_t i = 0; i < first.path.size(); ++i) EXPECT_EQ(first.path[i].x, second.path[i].x);
+}
+
+TEST(CoveragePlanner, GoesOnWhereAnEarlierRunStopped) {
+  const CoverageArea area{box(0, 0, 40, 30), {}};
+  const CoverageResult whole = planned(area);
+  CoverageProgress progress;
+  progress.planned_from = kStart;
+  progress.first_swath = whole.total_swaths / 2;
+  const CoverageResult rest = planned(area, progress);
+  EXPECT_EQ(rest.total_swaths, whole.total_swaths);
+  EXPECT_EQ(rest.swaths.front().index, progress.first_swath);
+  EXPECT_LT(rest.length, whole.length);
+  EXPECT_NEAR(rest.coverage_ratio, whole.coverage_ratio, 0.01);
+  EXPECT_TRUE(isDrivable(rest.path, area));
+}
+
+TEST(CoveragePlanner, TriesSkippedSwathsAtTheEnd) {
+  CoverageProgress progress;
+  progress.skipped = {1};
+  const CoverageResult result = planned({box(0, 0, 30, 20), {}}, progress);
+  EXPECT_EQ(result.swaths.front().index, 0u);
+  EXPECT_EQ(result.swaths.back().index, 1u);
+}
+
+TEST(CoveragePlanner, RefusesProgressOfAnotherPlan) {
+  CoverageProgress progress;
+  progress.first_swath = 100000;
+  EXPECT_THROW(planned({box(0, 0, 30, 20), {}}, progress), InvalidRequest);
+}
+
+TEST(CoveragePlanner, RefusesAStartOutsideTheArea) {
+  EXPECT_THROW(planned({box(10, 10, 40, 30), {}}), StartBlocked);
+  EXPECT_THROW(planned({box(0, 0, 40, 30), {box(4, 4, 8, 8)}}), StartBlocked);
+}
+
+TEST(CoveragePlanner, RefusesAnAreaTheVehicleDoesNotFitInto) {
+  EXPECT_THROW(CoveragePlanner(sweeper(), params()).plan({box(0, 0, 1, 1), {}}, std::nullopt, {}, {}), Error);
+}
+
+TEST(CoveragePlanner, StopsWhenItIsCancelled) {
+  CancelSource source;
+  source.cancel();
+  EXPECT_THROW(CoveragePlanner(sweeper(), params()).plan({box(0, 0, 200, 200), {}}, kStart, {}, source.token()),
+               Cancelled);
+}
+
+TEST(CoverageParams, NameTheKeyThatIsOutOfRange) {
+  CoverageParams wrong;
+  wrong.swath_width = -1.0;
+  try {
+    wrong.validate();
+    FAIL() << "accepted";
+  } catch (const InvalidParameter& error) {
+    EXPECT_NE(std::string(error.what()).find("swath_width"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace external_command
