@@ -31,9 +31,8 @@ std::vector<double> numbersOf(const Tree& tree, std::size_t wanted, const std::s
 
 /// Andrew's monotone chain.
 std::vector<Point2d> convexHull(std::vector<Point2d> points) {
-  std::sort(points.begin(), points.end(), [](const Point2d& a, const Point2d& b) {
-    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-  });
+  std::sort(points.begin(), points.end(),
+            [](const Point2d& a, const Point2d& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
   std::vector<Point2d> hull;
   const auto addAll = [&](auto begin, auto end) {
     const std::size_t base = hull.size();

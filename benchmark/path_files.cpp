@@ -10,9 +10,9 @@ namespace benchmark {
 
 namespace {
 
-constexpr double kFrame = 3.0;            ///< around path and footprints [m]
+constexpr double kFrame = 3.0;  ///< around path and footprints [m]
 constexpr double kPixelsPerMetre = 30.0;
-constexpr double kFootprintEvery = 0.8;   ///< [m]
+constexpr double kFootprintEvery = 0.8;  ///< [m]
 
 std::ofstream openFile(const std::string& file) {
   std::ofstream out(file);

@@ -13,8 +13,8 @@ namespace benchmark {
 /// @throws std::runtime_error  the file cannot be written.
 void writePath(const ParkingCase& task, const Path& path, const std::string& file);
 
-/// A drawing: obstacles grey, footprints along the path, the path blue forward and red in reverse, the start's footprint
-/// green, the goal's orange.
+/// A drawing: obstacles grey, footprints along the path, the path blue forward and red in reverse, the start's
+/// footprint green, the goal's orange.
 /// @throws std::runtime_error  the file cannot be written.
 void writeDrawing(const ParkingCase& task, const Path& path, const std::string& file);
 

@@ -79,7 +79,7 @@ int main(int argc, char** argv) {
   std::printf(
       "{\"benchmark\": \"service\", \"calls\": %d, \"route_m\": %.1f, \"empty_us\": %.1f, \"lane_follow_us\": %.1f, "
       "\"ratio\": %.3f, \"empty_p99_us\": %.1f, \"lane_follow_p99_us\": %.1f}\n",
-      calls, command.response.report.route_length, empty, lane_follow, lane_follow / empty,
-      quantile(empty_times, 0.99), quantile(command_times, 0.99));
+      calls, command.response.report.route_length, empty, lane_follow, lane_follow / empty, quantile(empty_times, 0.99),
+      quantile(command_times, 0.99));
   return 0;
 }

@@ -102,8 +102,10 @@ std::optional<Curve> Connector::search(const Pose2d& from, const Pose2d& to) con
   params.gear_change_cost = field_.params().gear_change_cost;
   params.spacing = 0.25;
   try {
-    const FreeSpaceResult result = FreeSpacePlanner(field_.vehicle(), params).plan(from, {to}, field_.region(), field_.cancel());
-    std::fprintf(stderr, "search %.1f m: %.1f m in %.4f s\n", (to.position() - from.position()).norm(), result.length, result.planning_time);
+    const FreeSpaceResult result =
+        FreeSpacePlanner(field_.vehicle(), params).plan(from, {to}, field_.region(), field_.cancel());
+    std::fprintf(stderr, "search %.1f m: %.1f m in %.4f s\n", (to.position() - from.position()).norm(), result.length,
+                 result.planning_time);
     Curve curve{from, {}};
     for (std::size_t i = 1; i < result.path.size(); ++i) {
       const ReferencePoint& point = result.path[i];

@@ -9,9 +9,9 @@ namespace external_command {
 
 namespace {
 
-constexpr int kPlaces = 8;      ///< tried on each side
-constexpr double kReach = 3.5;  ///< of the search along a side, in turning radii
-constexpr double kDetour = 1.5;  ///< a curve this much longer than its chord is a loop
+constexpr int kPlaces = 8;         ///< tried on each side
+constexpr double kReach = 3.5;     ///< of the search along a side, in turning radii
+constexpr double kDetour = 1.5;    ///< a curve this much longer than its chord is a loop
 constexpr double kOwnPrice = 1.3;  ///< of what another lap or swath can still sweep: its length, and a little more
 constexpr int kSwings = 5;         ///< distances from an edge tried
 /// Where to pass a corner of the border, as share of the way from its tip to where the shortest arc would pass.

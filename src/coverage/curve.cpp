@@ -156,7 +156,8 @@ std::vector<std::array<Point2d, 4>> stripsOf(const Curve& curve, double width) {
     const int n = std::max(1, static_cast<int>(std::ceil(turn / most)));
     for (int i = 1; i <= n; ++i) {
       const Pose2d a = advance(begin, arc, length * (i - 1) / n), b = advance(begin, arc, length * i / n);
-      strips.push_back({a.position() - side(a), b.position() - side(b), b.position() + side(b), a.position() + side(a)});
+      strips.push_back(
+          {a.position() - side(a), b.position() - side(b), b.position() + side(b), a.position() + side(a)});
     }
     begin = advance(begin, arc);
   }

@@ -12,10 +12,10 @@ namespace external_command {
 
 namespace {
 
-constexpr int kMaxRounds = 5;         ///< of swaths, each for what the ones before have left
-constexpr int kPatience = 3;          ///< laps that make it worse before no more are tried
-constexpr double kTurn = 1.1;         ///< price of a turn, in half circles
-constexpr double kFewerTurns = 5.0;   ///< how much dearer a turn is where few are wanted
+constexpr int kMaxRounds = 5;        ///< of swaths, each for what the ones before have left
+constexpr int kPatience = 3;         ///< laps that make it worse before no more are tried
+constexpr double kTurn = 1.1;        ///< price of a turn, in half circles
+constexpr double kFewerTurns = 5.0;  ///< how much dearer a turn is where few are wanted
 
 class Drafter {
  public:

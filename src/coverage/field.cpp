@@ -57,8 +57,8 @@ Field::Field(const VehicleParams& vehicle, const CoverageParams& params, const C
       params_(params),
       cancel_(cancel),
       origin_(originOf(area)),
-      reach_(std::hypot(std::max(vehicle.wheelbase + vehicle.front_overhang, vehicle.rear_overhang),
-                        vehicle.width / 2.0)),
+      reach_(
+          std::hypot(std::max(vehicle.wheelbase + vehicle.front_overhang, vehicle.rear_overhang), vehicle.width / 2.0)),
       region_(regionOf(area, origin_)),
       checker_(vehicle, params.margin, region_),
       bare_checker_(vehicle, 0.0, region_) {
@@ -104,9 +104,7 @@ void Field::setGoal() {
   if (start_) {
     part = partAt(core, start_->position());
   } else {
-    const auto smaller = [](const auto& a, const auto& b) {
-      return areaOf(only(a)) < areaOf(only(b));
-    };
+    const auto smaller = [](const auto& a, const auto& b) { return areaOf(only(a)) < areaOf(only(b)); };
     part = only(*std::max_element(core.begin(), core.end(), smaller));
   }
   goal_ = intersection(grown(part, tool), free_);

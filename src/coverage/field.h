@@ -28,7 +28,7 @@ class Field {
   const std::optional<Pose2d>& start() const { return start_; }
 
   const shapes::Shapes& free() const { return free_; }
-  const shapes::Shapes& goal() const { return goal_; }        ///< what the tool can reach from the start
+  const shapes::Shapes& goal() const { return goal_; }          ///< what the tool can reach from the start
   const shapes::Shapes& workable() const { return workable_; }  ///< the free parts that `goal` lies in
   const Region& region() const { return region_; }
 

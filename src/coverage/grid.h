@@ -52,8 +52,8 @@ class CoverageGrid {
   /// Marks what work along `curve` sweeps. @return the area of the goal that was not swept before [m^2].
   double sweep(const Curve& curve, double width);
 
-  /// The area of the goal [m^2] that work along all of `curves` would add, without the cells that are kInner; those that
-  /// are kOwn count `own_share`. Uses kMarked, and clears it again.
+  /// The area of the goal [m^2] that work along all of `curves` would add, without the cells that are kInner; those
+  /// that are kOwn count `own_share`. Uses kMarked, and clears it again.
   double gain(const std::vector<Curve>& curves, double width, double own_share);
 
   /// Area [m^2] of the cells that have all of `with` and none of `without`.

@@ -13,11 +13,11 @@ namespace external_command {
 
 namespace {
 
-constexpr double kTighter = 0.97;    ///< laps bend a little less than the vehicle can, to leave room for rounding
-constexpr double kMinSide = 0.3;     ///< shorter sides only disturb [m]
-constexpr int kEntries = 12;         ///< places at which a round lap may begin
-constexpr double kPoseStep = 0.2;    ///< [m]
-constexpr double kBlocked = -1e-3;   ///< turn of a corner that is none but for something in the way [rad]
+constexpr double kTighter = 0.97;   ///< laps bend a little less than the vehicle can, to leave room for rounding
+constexpr double kMinSide = 0.3;    ///< shorter sides only disturb [m]
+constexpr int kEntries = 12;        ///< places at which a round lap may begin
+constexpr double kPoseStep = 0.2;   ///< [m]
+constexpr double kBlocked = -1e-3;  ///< turn of a corner that is none but for something in the way [rad]
 
 /// A lap along one ring.
 class LapBuilder {

@@ -12,10 +12,10 @@ namespace external_command {
 
 namespace {
 
-constexpr int kBins = 8;             ///< across a swath
-constexpr int kCoarseBins = 2;       ///< the same, in the search for a heading
+constexpr int kBins = 8;        ///< across a swath
+constexpr int kCoarseBins = 2;  ///< the same, in the search for a heading
 constexpr double kCoarseSpots = 20e3;
-constexpr int kHeadings = 24;        ///< tried, besides those of the border's edges
+constexpr int kHeadings = 24;          ///< tried, besides those of the border's edges
 constexpr std::size_t kFinalists = 3;  ///< headings looked at closely
 
 class SwathSearch {

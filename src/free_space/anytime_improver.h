@@ -18,7 +18,6 @@ class AnytimeImprover {
   Arcs improve(const Arcs& arcs, WorkBudget* budget);
 
  private:
-
   Scene scene_;
   Query query_;
   BoundingBox area_;

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
+#include "collision_probe.h"
 #include "external_command/core/error.h"
 #include "external_command/core/text.h"
-#include "collision_probe.h"
 #include "footprint_index.h"
 
 namespace external_command {

@@ -11,9 +11,9 @@ namespace external_command {
 
 namespace {
 
-constexpr int kDirections = 32;       ///< in which a way out of an obstacle is looked for
-constexpr double kFarthest = 64.0;    ///< [m]
-constexpr double kDepthStep = 1e-3;   ///< [m]
+constexpr int kDirections = 32;      ///< in which a way out of an obstacle is looked for
+constexpr double kFarthest = 64.0;   ///< [m]
+constexpr double kDepthStep = 1e-3;  ///< [m]
 
 Collision::Kind kindOf(int source) {
   if (source == kDrivableSource) return Collision::Kind::kDrivableBorder;
@@ -68,9 +68,7 @@ class Probe {
   }
 
  private:
-  Frame shifted(const Point2d& shift) const {
-    return Frame({pose_.x + shift.x(), pose_.y + shift.y(), pose_.heading});
-  }
+  Frame shifted(const Point2d& shift) const { return Frame({pose_.x + shift.x(), pose_.y + shift.y(), pose_.heading}); }
 
   const FootprintIndex& index_;
   Pose2d pose_;

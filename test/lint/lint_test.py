@@ -19,12 +19,7 @@ PRIVATE_INCLUDE = re.compile(r'#include\s*[<"](ompl|google/protobuf|[^>"]*\.pb\.
 SOURCES = (".h", ".cpp", ".py", ".cmake", ".proto", ".sh", "CMakeLists.txt")
 LICENCE = "SPDX-License-Identifier: Apache-2.0"
 MAX_LINES = 400
-CATKIN_LINT_IGNORES = (
-    "literal_project_name",  # names of libraries begin with the package's, but are names of their own
-    "package_path_name",  # a checkout may lie in a folder of any name
-    "uninstalled_script",  # those that build and test are for the checkout only
-    "unused_include_path",  # used by target_include_directories, in a function that catkin_lint does not see into
-)
+CATKIN_LINT_IGNORES = ("package_path_name",)  # a checkout may lie in a folder of any name
 BUILT = ("build", "CMakeFiles", "__pycache__")
 
 

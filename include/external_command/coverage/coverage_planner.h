@@ -14,7 +14,8 @@
 
 namespace external_command {
 
-/// What is to be swept. Holes may touch or cross the border and each other: what is free is `outer` without all of them.
+/// What is to be swept. Holes may touch or cross the border and each other: what is free is `outer` without all of
+/// them.
 struct CoverageArea {
   Polygon outer;
   std::vector<Polygon> holes;
@@ -37,16 +38,16 @@ struct CoverageProgress {
 };
 
 struct CoverageResult {
-  Path path;                  ///< of the rear-axle centre; `tool_on` where the vehicle arrives working
-  std::vector<Swath> swaths;  ///< in the order of the path
+  Path path;                     ///< of the rear-axle centre; `tool_on` where the vehicle arrives working
+  std::vector<Swath> swaths;     ///< in the order of the path
   std::size_t total_swaths = 0;  ///< of the whole plan, those before CoverageProgress::first_swath included
 
-  double coverage_ratio = 0.0;     ///< swept share of what the vehicle can reach from the start
-  double covered_free = 0.0;       ///< swept share of the whole free area
-  double free_area = 0.0;          ///< outer without holes [m^2]
-  double reachable_area = 0.0;     ///< [m^2]
-  double covered_area = 0.0;       ///< swept, within the free area [m^2]
-  double overlap = 0.0;            ///< swept more than once, as share of what is swept
+  double coverage_ratio = 0.0;                  ///< swept share of what the vehicle can reach from the start
+  double covered_free = 0.0;                    ///< swept share of the whole free area
+  double free_area = 0.0;                       ///< outer without holes [m^2]
+  double reachable_area = 0.0;                  ///< [m^2]
+  double covered_area = 0.0;                    ///< swept, within the free area [m^2]
+  double overlap = 0.0;                         ///< swept more than once, as share of what is swept
   std::vector<std::vector<Point2d>> uncovered;  ///< outlines of the larger free parts that stay unswept
 
   double length = 0.0;          ///< driven [m]
@@ -60,7 +61,8 @@ struct CoverageResult {
 /// Plans a path that sweeps an area and keeps the whole footprint inside it. Thread-safe: const, no shared state.
 ///
 /// Laps run along the border and the holes, straight swaths fill what they leave; turns and transfers are Reeds-Shepp
-/// curves, or a search where none of those fits. Length is traded against coverage by a price per square metre left out.
+/// curves, or a search where none of those fits. Length is traded against coverage by a price per square metre left
+/// out.
 class CoveragePlanner {
  public:
   /// @throws InvalidParameter  a value of `vehicle` or `params` is out of range.
