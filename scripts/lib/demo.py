@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """The main job, end to end: a simulated vehicle drives across a map by a lane-follow command, seen in rviz.
 

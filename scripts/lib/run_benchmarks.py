@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """Runs the benchmark programs: run_benchmarks.py BUILD_DIR MAP...
 

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """Runs the unittest cases of one Python file and writes a JUnit XML file: run_unittest.py TEST_FILE RESULT_FILE"""
 import importlib.util
