@@ -17,9 +17,9 @@ namespace external_command {
 
 namespace {
 
-constexpr double kMaxDistance = 10'000.0;    ///< between start and goals [m]
-constexpr std::size_t kFirstPatience = 150;  ///< trials that make a first path out of what the search found
-constexpr std::size_t kFirstRound = 2000;    ///< search steps for each approach while there are several
+constexpr double kMaxDistance = 10'000.0;        ///< between start and goals [m]
+constexpr std::size_t kFirstPatience = 150;      ///< trials that make a first path out of what the search found
+constexpr std::size_t kFirstRound = 2000;        ///< search steps for each approach while there are several
 constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
 
 /// One way to end at a goal: drive to `query.goal`, then along `tail`.
