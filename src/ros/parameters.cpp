@@ -114,6 +114,7 @@ VehicleParams readVehicleParams(const ParameterReader& reader) {
 RouterParams readRouterParams(const ParameterReader& reader) {
   RouterParams params;
   reader.read("min_lane_change_length", &params.min_lane_change_length);
+  reader.read("tight_lane_change_price", &params.tight_lane_change_price);
   params.validate();
   return params;
 }

@@ -48,6 +48,7 @@ ContextParams readContextParams(const ParameterReader& reader) {
   params.vehicle = readVehicleParams(reader.within("vehicle"));
   const ParameterReader routing = reader.within("routing");
   params.router = readRouterParams(routing);
+  params.router.min_turning_radius = params.vehicle.min_turning_radius;
   params.lane_way = readLaneWayParams(routing);
   params.reference_path = readReferencePathParams(routing);
   return params;
