@@ -104,8 +104,6 @@ std::optional<Curve> Connector::search(const Pose2d& from, const Pose2d& to) con
   try {
     const FreeSpaceResult result =
         FreeSpacePlanner(field_.vehicle(), params).plan(from, {to}, field_.region(), field_.cancel());
-    std::fprintf(stderr, "search %.1f m: %.1f m in %.4f s\n", (to.position() - from.position()).norm(), result.length,
-                 result.planning_time);
     Curve curve{from, {}};
     for (std::size_t i = 1; i < result.path.size(); ++i) {
       const ReferencePoint& point = result.path[i];
@@ -115,8 +113,7 @@ std::optional<Curve> Connector::search(const Pose2d& from, const Pose2d& to) con
     return curve;
   } catch (const Cancelled&) {
     throw;
-  } catch (const Error& error) {
-    std::fprintf(stderr, "search %.1f m: %s\n", (to.position() - from.position()).norm(), error.what());
+  } catch (const Error&) {
     return std::nullopt;
   }
 }

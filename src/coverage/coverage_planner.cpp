@@ -6,37 +6,37 @@
 #include <cmath>
 
 #include "connector.h"
-#include "draft.h"
 #include "external_command/core/error.h"
 #include "external_command/core/text.h"
 #include "field.h"
 #include "grid.h"
-#include "order.h"
+#include "plan.h"
 #include "uncovered.h"
 
 namespace external_command {
 
 namespace {
 
-/// Of a square metre that stays unswept, as length, times the swath width: what it may cost to sweep the last corners.
-constexpr double kUnsweptPrice = 4.0;
-
 using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point began) { return std::chrono::duration<double>(Clock::now() - began).count(); }
 
+bool isSame(const Pose2d& a, const Pose2d& b) {
+  constexpr double kRounding = 1e-6;
+  return (a.position() - b.position()).norm() < kRounding && std::abs(angleBetween(a.heading, b.heading)) < kRounding;
+}
+
 /// Drives the steps of a plan one after the other and keeps what the path and the statistics need.
 class PathBuilder {
  public:
-  PathBuilder(const Field& field, const std::vector<Work>& works, const std::optional<Pose2d>& start,
-              CoverageResult* result)
-      : field_(field), works_(works), at_(start), swept_(field.makeGrid()), result_(result) {}
+  PathBuilder(const Field& field, const Plan& plan, const std::optional<Pose2d>& start, CoverageResult* result)
+      : field_(field), plan_(plan), at_(start), swept_(field.makeGrid()), result_(result) {}
 
-  /// The swath was swept by an earlier run.
-  void count(const Step& step) { swept_.sweep(works_[step.work].ways[step.way], field_.width()); }
+  /// Swath `index` was swept by an earlier run.
+  void count(std::size_t index) { swept_.sweep(wayOf(index), field_.width()); }
 
-  void drive(const Step& step, std::size_t index) {
-    const Curve way = works_[step.work].ways[step.way];
+  void drive(std::size_t index) {
+    const Curve way = wayOf(index);
     if (!field_.isBarelyFree(way)) {
       result_->warnings.push_back(text("swath ", index, " is left out: the footprint would not stay inside"));
       return;
@@ -72,8 +72,15 @@ class PathBuilder {
   }
 
  private:
+  Curve wayOf(std::size_t index) const {
+    const Step& step = plan_.steps[index];
+    return plan_.works[step.work].curveOf(step.way);
+  }
+
   bool transfer(const Pose2d& to, std::size_t index) {
-    const auto link = Connector(field_).connect(*at_, to);
+    const std::optional<Curve>& planned = plan_.links[index];
+    const bool is_as_planned = planned && isSame(planned->start, *at_);
+    const auto link = is_as_planned ? planned : Connector(field_).connect(*at_, to);
     if (link && field_.isBarelyFree(*link)) {
       append(*link, false);
       return true;
@@ -104,7 +111,7 @@ class PathBuilder {
   }
 
   const Field& field_;
-  const std::vector<Work>& works_;
+  const Plan& plan_;
   std::optional<Pose2d> at_;
   CoverageGrid swept_;
   CoverageResult* result_;
@@ -136,32 +143,30 @@ CoverageResult CoveragePlanner::plan(const CoverageArea& area, const std::option
                                      const CoverageProgress& progress, const CancelToken& cancel) const {
   const auto began = Clock::now();
   const Field field(vehicle_, params_, area, progress.planned_from ? progress.planned_from : start, cancel);
-  const std::vector<Draft> drafts = makeDrafts(field, kUnsweptPrice / field.width());
-  if (drafts.empty() || drafts.front().works.empty()) {
+  const Plan plan = bestPlan(field);
+  const std::size_t swaths = plan.steps.size();
+  if (swaths == 0) {
     throw NoPath("no swath fits into the area; is it too narrow for the vehicle to turn in?");
   }
-  const std::vector<Work>& works = drafts.front().works;
-  Routes routes(field);
-  const std::vector<Step> steps = orderOf(field, works, &routes);
-  requireKnownSwaths(progress, steps.size());
+  requireKnownSwaths(progress, swaths);
 
   CoverageResult result;
-  result.total_swaths = steps.size();
-  PathBuilder builder(field, works, localPose(start, field.origin()), &result);
+  result.total_swaths = swaths;
+  PathBuilder builder(field, plan, localPose(start, field.origin()), &result);
   const auto is_skipped = [&](std::size_t index) {
     return std::find(progress.skipped.begin(), progress.skipped.end(), index) != progress.skipped.end();
   };
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    if (i < progress.first_swath && !is_skipped(i)) builder.count(steps[i]);
+  for (std::size_t i = 0; i < swaths; ++i) {
+    if (i < progress.first_swath && !is_skipped(i)) builder.count(i);
   }
   const auto drive = [&](std::size_t index) {
     cancel.throwIfCancelled();
     if (secondsSince(began) > params_.time_budget) {
       throw PlanningTimeout(text("the area was not planned within ", params_.time_budget, " s (time_budget)"));
     }
-    builder.drive(steps[index], index);
+    builder.drive(index);
   };
-  for (std::size_t i = progress.first_swath; i < steps.size(); ++i) {
+  for (std::size_t i = progress.first_swath; i < swaths; ++i) {
     if (!is_skipped(i)) drive(i);
   }
   for (const std::size_t index : progress.skipped) drive(index);

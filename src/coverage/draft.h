@@ -4,19 +4,28 @@
 #include <vector>
 
 #include "field.h"
+#include "grid.h"
+#include "swaths.h"
 #include "work.h"
 
 namespace external_command {
 
-/// What is to be worked on, in no order yet.
+/// What is to be worked on, in no order yet: so and so many laps, then swaths for the rest.
 struct Draft {
-  std::vector<Work> works;
-  double cost = 0.0;  ///< about the length with turns, less the price of what is swept [m]
   int laps = 0;
+  double cost = 0.0;                   ///< about the length with turns, less the price of what is swept [m]
+  std::vector<Work> works;             ///< the laps
+  CoverageGrid grid;                   ///< what they sweep
+  std::vector<SwathHeading> headings;  ///< of the swaths, best first
 };
 
-/// Drafts with different numbers of laps, cheapest first.
+/// Drafts with the numbers of laps that look best, cheapest first, at most `count`.
 /// @param price  of a square metre that is not swept [m/m^2].
-std::vector<Draft> makeDrafts(const Field& field, double price);
+std::vector<Draft> makeDrafts(const Field& field, const CoverageGrid& empty, double price, std::size_t count);
+
+/// The draft's laps, and its swaths.
+/// @param choosy  how much dearer than really the turns are taken to be: only long swaths are worth it then, and what
+///                they leave can be swept in another direction.
+std::vector<Work> worksOf(const Field& field, Draft draft, double price, double choosy);
 
 }  // namespace external_command

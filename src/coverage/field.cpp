@@ -12,8 +12,8 @@ namespace external_command {
 namespace {
 
 constexpr double kCheckStep = 0.1;       ///< most that a corner moves between two checks [m]
-constexpr double kMaxCells = 5e6;        ///< of the grid; sets its finest cell
-constexpr double kCellsPerSwath = 16.0;  ///< across
+constexpr double kMaxCells = 2.5e6;      ///< of the grid; sets its finest cell
+constexpr double kCellsPerSwath = 12.0;  ///< across
 constexpr double kMaxExtent = 20e3;      ///< of the area [m]
 
 Polygon moved(const Polygon& polygon, const Point2d& origin, const std::string& name) {

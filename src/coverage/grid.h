@@ -35,6 +35,7 @@ class CoverageGrid {
   int columns() const { return columns_; }
   int rows() const { return rows_; }
   std::uint8_t at(int column, int row) const { return cells_[index(column, row)]; }
+  const std::uint8_t* row(int row) const { return &cells_[index(0, row)]; }
   Point2d centre(int column, int row) const { return corner_ + cell_ * Point2d(column + 0.5, row + 0.5); }
 
   int columnOf(double x) const { return static_cast<int>(std::floor((x - corner_.x()) / cell_)); }
@@ -45,6 +46,9 @@ class CoverageGrid {
     const int column = columnOf(point.x()), row = rowOf(point.y());
     return column < 0 || row < 0 || column >= columns_ || row >= rows_ ? std::uint8_t{0} : at(column, row);
   }
+
+  std::size_t size() const { return cells_.size(); }
+  std::uint8_t* data() { return cells_.data(); }
 
   void set(const shapes::Shapes& within, std::uint8_t flag);
   void clear(std::uint8_t flag);

@@ -13,11 +13,11 @@ namespace external_command {
 
 namespace {
 
-constexpr double kTighter = 0.97;   ///< laps bend a little less than the vehicle can, to leave room for rounding
-constexpr double kMinSide = 0.3;    ///< shorter sides only disturb [m]
-constexpr int kEntries = 12;        ///< places at which a round lap may begin
-constexpr double kPoseStep = 0.2;   ///< [m]
-constexpr double kBlocked = -1e-3;  ///< turn of a corner that is none but for something in the way [rad]
+constexpr double kTighter = 0.97;      ///< laps bend a little less than the vehicle can, to leave room for rounding
+constexpr double kMinSide = 0.3;       ///< shorter sides only disturb [m]
+constexpr double kEntrySpacing = 1.0;  ///< between places at which a closed lap may begin [m]
+constexpr double kPoseStep = 0.2;      ///< [m]
+constexpr double kBlocked = -1e-3;     ///< turn of a corner that is none but for something in the way [rad]
 
 /// A lap along one ring.
 class LapBuilder {
@@ -37,18 +37,19 @@ class LapBuilder {
  private:
   double maxKappa() const { return kTighter * field_.vehicle().maxKappa(); }
 
-  /// The ring bends gently everywhere: driven as it is, from any of several places.
+  /// The ring bends gently everywhere: driven as it is, either way round.
   std::optional<Work> roundLap() const {
-    Work work;
-    for (int i = 0; i < kEntries; ++i) {
-      const double from = ring_.length() * i / kEntries;
-      const Polyline line(ring_.part(from, from + 1.5 * ring_.length()));
-      const Curve curve = follow(line, 0.0, ring_.length(), maxKappa());
-      for (const Curve& way : {curve, turnedRound(curve)}) {
-        if (field_.isFree(way)) work.ways.push_back(way);
+    const Polyline line(ring_.part(0.0, 1.2 * ring_.length()));
+    const Curve curve = follow(line, 0.0, ring_.length(), maxKappa());
+    std::optional<Work> work;
+    for (const Curve& way : {curve, turnedRound(curve)}) {
+      if (!field_.isFree(way)) continue;
+      if (work) {
+        work->addClosed(way, kEntrySpacing);
+      } else {
+        work = Work::closed(way, kEntrySpacing);
       }
     }
-    if (work.ways.empty()) return std::nullopt;
     return work;
   }
 
@@ -127,47 +128,48 @@ class LapBuilder {
     return way && !way->fills ? way->enter : 0.0;
   }
 
-  /// Work that begins at the start of side `first` and goes on for `count` sides, back to the first if `closes`.
-  Curve drive(std::size_t first, std::size_t count, bool closes) const {
-    Curve curve{sides_[first].curve.start, {}};
+  /// Work along `count` sides, from `from` [m] on the first of them; back to where the first is entered if it `closes`.
+  Curve drive(std::size_t first, double from, std::size_t count, bool closes) const {
+    Curve curve{poseAt(sides_[first].curve, from), {}};
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t i = (first + k) % sides_.size();
       const bool goes_on = k + 1 < count || closes;
-      const double from = k == 0 ? 0.0 : enters(i), to = goes_on ? ways_[i]->leave : sides_[i].length;
-      curve.append(partOf(sides_[i].curve, from, to).arcs);
+      curve.append(
+          partOf(sides_[i].curve, k == 0 ? from : enters(i), goes_on ? ways_[i]->leave : sides_[i].length).arcs);
       if (!goes_on) continue;
       curve.append(ways_[i]->curve.arcs);
-      if (!ways_[i]->fills || k + 1 == count) continue;
-      const Side& next = sides_[(i + 1) % sides_.size()];
-      curve.append(backedUp(partOf(next.curve, 0.0, ways_[i]->enter)).arcs);
+      if (!ways_[i]->fills) continue;
+      curve.append(backedUp(partOf(sides_[(i + 1) % sides_.size()].curve, 0.0, ways_[i]->enter)).arcs);
     }
     return curve;
   }
 
   std::vector<Work> chain() const {
-    std::vector<Work> works;
     const std::size_t n = sides_.size();
-    if (n == 0) return works;
     std::size_t broken = n;
     for (std::size_t i = 0; i < n; ++i) {
       if (!ways_[i]) broken = i;
     }
-    if (broken == n) {
-      Work closed;
-      for (std::size_t i = 0; i < n; ++i) closed.ways.push_back(drive(i, n, true));
-      return {closed};
-    }
-    std::size_t begin = broken + 1, count = 0;
-    for (std::size_t k = 1; k <= n; ++k) {
-      ++count;
-      if (ways_[(broken + k) % n]) continue;
-      works.push_back({{drive(begin % n, count, false)}, -1});
-      const Curve round = turnedRound(works.back().ways.front());
-      if (field_.isFree(round)) works.back().ways.push_back(round);
-      begin += count;
-      count = 0;
+    if (n == 0) return {};
+    if (broken == n) return {closedChain()};
+    std::vector<Work> works;
+    for (std::size_t begin = 1, end = 1; end <= n; ++end) {  // sides after the last break, up to the next
+      if (ways_[(broken + end) % n]) continue;
+      const Curve way = drive((broken + begin) % n, 0.0, end - begin + 1, false);
+      const Curve back = turnedRound(way);
+      works.push_back(field_.isFree(back) ? Work({way, back}) : Work(std::vector<Curve>{way}));
+      begin = end + 1;
     }
     return works;
+  }
+
+  /// Begun anywhere; or at the beginning of a side, so that one more corner is filled.
+  Work closedChain() const {
+    Work work = Work::closed(drive(0, enters(0), sides_.size(), true), kEntrySpacing);
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+      if (enters(i) > 0.0) work.add(drive(i, 0.0, sides_.size(), true));
+    }
+    return work;
   }
 
   const Field& field_;
@@ -189,7 +191,7 @@ std::vector<Work> planLap(const Field& field, int number, int around_holes, doub
   const double inner = border + field.width() / 2.0;
   grid->clear(kInner | kOwn);
   grid->set(inset(field.workable(), inner, std::min(inner, most)), kInner);
-  if (number > 0) grid->set(inset(field.workable(), border - pitch / 2.0, std::min(border - pitch / 2.0, most)), kOwn);
+  if (number > 0) grid->set(inset(field.workable(), border, std::min(border, most)), kOwn);
   std::vector<Work> works;
   const auto add = [&](const shapes::Ring& line, bool is_ring) {
     const Ring ring(pointsOf(line), field.radius());
@@ -197,7 +199,7 @@ std::vector<Work> planLap(const Field& field, int number, int around_holes, doub
     for (Work& work : LapBuilder(field, price, grid, ring).build()) {
       work.lap = number;
       work.is_ring = is_ring;
-      grid->sweep(work.ways.front(), field.width());
+      grid->sweep(work.curveOf(0), field.width());
       works.push_back(std::move(work));
     }
   };

@@ -4,18 +4,21 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <unordered_map>
 
 namespace external_command {
 
 Remains::Remains(const CoverageGrid& grid, double block) {
-  const int side = std::max(1, static_cast<int>(std::lround(block / grid.cell())));
+  const int side = std::max(1, static_cast<int>(block / grid.cell() + 1e-6));
   std::vector<int> counts(static_cast<std::size_t>(grid.columns() / side + 1));
   for (int first = 0; first < grid.rows(); first += side) {
     std::fill(counts.begin(), counts.end(), 0);
     for (int row = first; row < std::min(first + side, grid.rows()); ++row) {
-      for (int column = 0; column < grid.columns(); ++column) {
-        counts[static_cast<std::size_t>(column / side)] += (grid.at(column, row) & (kGoal | kSwept)) == kGoal;
+      const std::uint8_t* cell = grid.row(row);
+      for (int i = 0; i * side < grid.columns(); ++i) {
+        const std::uint8_t* const end = grid.row(row) + std::min((i + 1) * side, grid.columns());
+        for (; cell != end; ++cell) counts[static_cast<std::size_t>(i)] += (*cell & (kGoal | kSwept)) == kGoal;
       }
     }
     for (std::size_t i = 0; i < counts.size(); ++i) {
@@ -49,24 +52,28 @@ Profile::Profile(const Remains& remains, double heading, double bin)
     low = low.cwiseMin(turned);
     high = high.cwiseMax(turned);
   }
-  if (low.x() > high.x()) return;
+  if (low.x() > high.x()) {
+    totals_.assign(1, 0.0);
+    return;
+  }
   corner_ = low.x() * ahead_ + low.y() * aside_;
   columns_ = static_cast<int>((high.x() - low.x()) / bin) + 1;
   rows_ = static_cast<int>((high.y() - low.y()) / bin) + 1;
-  sums_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_ + 1), 0.0F);
+  const auto stride = static_cast<std::size_t>(columns_);
+  sums_.assign(stride * static_cast<std::size_t>(rows_ + 1), 0.0F);
+  totals_.assign(static_cast<std::size_t>(rows_ + 1), 0.0);
   for (const Remains::Spot& spot : remains.spots) {
-    const int column = static_cast<int>((spot.at.dot(ahead_) - low.x()) / bin);
-    const int row = static_cast<int>((spot.at.dot(aside_) - low.y()) / bin);
-    sums_[index(column, row + 1)] += static_cast<float>(spot.area);
+    const auto column = static_cast<std::size_t>((spot.at.dot(ahead_) - low.x()) / bin);
+    const auto row = static_cast<std::size_t>((spot.at.dot(aside_) - low.y()) / bin);
+    sums_[(row + 1) * stride + column] += static_cast<float>(spot.area);
+    totals_[row + 1] += spot.area;
   }
-  for (int column = 0; column < columns_; ++column) {
-    for (int row = 0; row < rows_; ++row) sums_[index(column, row + 1)] += sums_[index(column, row)];
-  }
+  std::partial_sum(totals_.begin(), totals_.end(), totals_.begin());
+  for (std::size_t i = stride; i < sums_.size(); ++i) sums_[i] += sums_[i - stride];
 }
 
-double Profile::left(int column, int row, int count) const {
-  const int first = std::clamp(row, 0, rows_), last = std::clamp(row + count, 0, rows_);
-  return static_cast<double>(sums_[index(column, last)] - sums_[index(column, first)]);
+const float* Profile::below(int row) const {
+  return &sums_[static_cast<std::size_t>(std::clamp(row, 0, rows_)) * static_cast<std::size_t>(columns_)];
 }
 
 }  // namespace external_command

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "grid.h"
@@ -34,16 +35,18 @@ class Profile {
   int columns() const { return columns_; }  ///< along
   int rows() const { return rows_; }        ///< across
 
-  /// Area [m^2] left in the bins `row` ... `row + count - 1` of a column.
-  double left(int column, int row, int count) const;
+  /// Running sums over the rows: the area [m^2] left in rows `first` ... `last - 1` of column i is
+  /// below(last)[i] - below(first)[i]. Rows beyond the ends are empty.
+  const float* below(int row) const;
+
+  /// Area [m^2] left in rows `first` ... `last - 1`.
+  double areaOf(int first, int last) const { return areaBelow(last) - areaBelow(first); }
 
   /// The point at a distance [m] along and across from the corner of bin (0, 0).
   Point2d point(double along, double across) const { return corner_ + along * ahead_ + across * aside_; }
 
  private:
-  std::size_t index(int column, int row) const {
-    return static_cast<std::size_t>(column) * static_cast<std::size_t>(rows_ + 1) + static_cast<std::size_t>(row);
-  }
+  double areaBelow(int row) const { return totals_[static_cast<std::size_t>(std::clamp(row, 0, rows_))]; }
 
   double heading_;
   double bin_;
@@ -52,7 +55,8 @@ class Profile {
   Point2d corner_;
   int columns_ = 0;
   int rows_ = 0;
-  std::vector<float> sums_;  ///< running sums over the rows, so that left() is one difference
+  std::vector<float> sums_;
+  std::vector<double> totals_;  ///< of all columns, running over the rows
 };
 
 }  // namespace external_command

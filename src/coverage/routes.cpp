@@ -10,7 +10,7 @@ namespace external_command {
 
 namespace {
 
-constexpr double kCoarseCells = 6000.0;
+constexpr double kCoarseCells = 3000.0;
 constexpr double kFineCells = 400e3;
 constexpr float kFar = std::numeric_limits<float>::infinity();
 constexpr double kUnreachable = 1e5;  // [m]
@@ -102,8 +102,9 @@ const std::vector<float>& Routes::distancesFrom(int source) {
 double Routes::distance(const Point2d& from, const Point2d& to) {
   const double straight = (to - from).norm();
   if (isStraightFree(from, to)) return straight;
-  const int begin = nearestOpen(from), end = nearestOpen(to);
+  int begin = nearestOpen(from), end = nearestOpen(to);
   if (begin < 0 || end < 0) return kUnreachable;
+  if (known_.count(end) > 0) std::swap(begin, end);  // it is as far the other way
   const double found = static_cast<double>(distancesFrom(begin)[static_cast<std::size_t>(end)]);
   return std::isfinite(found) ? std::max(straight, found) : kUnreachable;
 }

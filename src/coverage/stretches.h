@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 namespace external_command {
@@ -10,41 +9,68 @@ namespace external_command {
 struct Stretch {
   int begin = 0;
   int end = 0;  ///< one past the last
-
-  int length() const { return end - begin; }
 };
 
-/// Worth of a column that must not be in any stretch.
-constexpr double kNever = -1e12;
+/// Where along one line it pays to work: a worth for what is swept in each column, less a price of each column and of
+/// each beginning. Two running optima, with the tool on and off, and a walk back.
+class StretchSearch {
+ public:
+  /// @param beginning  price of beginning a stretch.
+  /// @param column     price of driving through a column.
+  StretchSearch(double beginning, double column) : beginning_(beginning), column_(column) {}
 
-/// Where along one line it pays to work, for a worth of each column and a price of each beginning: two running optima,
-/// with the tool on and off, and a walk back.
-/// @param stretches  gets the stretches in order; may be null.
-/// @return the best sum.
-template <class Worth>
-double bestStretches(int columns, double beginning, const Worth& worth, std::vector<Stretch>* stretches) {
-  double on = kNever, off = 0.0;
-  std::vector<char> begins(static_cast<std::size_t>(columns)), ends(static_cast<std::size_t>(columns));
-  for (int i = 0; i < columns; ++i) {
-    const double on_before = on, off_before = off;
-    begins[static_cast<std::size_t>(i)] = off_before - beginning > on_before;
-    ends[static_cast<std::size_t>(i)] = on_before > off_before;
-    on = std::max(on_before, off_before - beginning) + worth(i);
-    off = std::max(off_before, on_before);
-  }
-  bool working = on > off;
-  int end = columns;
-  for (int i = columns; stretches != nullptr && i-- > 0;) {
-    if (working && begins[static_cast<std::size_t>(i)]) {
-      stretches->push_back({i, end});
-      working = false;
-    } else if (!working && ends[static_cast<std::size_t>(i)]) {
-      working = true;
-      end = i;
+  /// @param worth      of a column, not negative.
+  /// @param can_drive  whether the vehicle can be in a column; asked only where it matters.
+  /// @return the best sum.
+  template <class Worth, class CanDrive>
+  double best(int columns, const Worth& worth, const CanDrive& can_drive) {
+    double on = kNever, off = 0.0;
+    changes_.clear();
+    for (int i = 0; i < columns; ++i) {
+      const double gain = worth(i);
+      const bool begins = gain > 0.0 && off - beginning_ > on;
+      const double on_before = begins ? off - beginning_ : on;
+      if (on > off) {
+        off = on;
+        changes_.push_back({i, Change::kEnd});
+      }
+      on = on_before <= kNever / 2.0 ? kNever : on_before + gain - column_;
+      if (on > kNever / 2.0 && (on < off - beginning_ || !can_drive(i))) on = kNever;
+      if (begins && on > kNever / 2.0) changes_.push_back({i, Change::kBegin});
     }
+    if (on > off) {
+      off = on;
+      changes_.push_back({columns, Change::kEnd});
+    }
+    return off;
   }
-  if (stretches != nullptr) std::reverse(stretches->begin(), stretches->end());
-  return std::max(on, off);
-}
+
+  /// The stretches of the last search, in order.
+  std::vector<Stretch> stretches() const {
+    std::vector<Stretch> result;
+    int end = -1;  // of the stretch being walked back through
+    for (auto change = changes_.rbegin(); change != changes_.rend(); ++change) {
+      if (change->kind == Change::kEnd && end < 0) end = change->column;
+      if (change->kind == Change::kBegin && end > change->column) {
+        result.insert(result.begin(), {change->column, end});
+        end = -1;
+      }
+    }
+    return result;
+  }
+
+ private:
+  static constexpr double kNever = -1e12;
+
+  struct Change {
+    enum Kind { kBegin, kEnd };
+    int column;
+    Kind kind;  ///< of the best way to have the tool on from this column, or off
+  };
+
+  double beginning_;
+  double column_;
+  std::vector<Change> changes_;
+};
 
 }  // namespace external_command

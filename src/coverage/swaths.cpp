@@ -12,24 +12,42 @@ namespace external_command {
 
 namespace {
 
-constexpr int kBins = 8;        ///< across a swath
-constexpr int kCoarseBins = 2;  ///< the same, in the search for a heading
+constexpr int kBins = 6;        ///< across a swath
+constexpr int kCoarseBins = 3;  ///< the same, in the search for a heading
 constexpr double kCoarseSpots = 20e3;
 constexpr int kHeadings = 24;          ///< tried, besides those of the border's edges
-constexpr std::size_t kFinalists = 3;  ///< headings looked at closely
+constexpr double kDistinct = 0.01;     ///< headings closer than this are one [rad]
+constexpr std::size_t kFinalists = 2;  ///< headings looked at closely
 
 class SwathSearch {
  public:
-  SwathSearch(const Field& field, double price, double turn_price, CoverageGrid* grid)
-      : field_(field), price_(price), turn_price_(turn_price), grid_(*grid), remains_(grid_, field.width() / kBins) {}
+  SwathSearch(const Field& field, const SwathPrices& prices, const CoverageGrid& grid)
+      : field_(field), prices_(prices), grid_(grid), remains_(grid, field.width() / kBins) {}
 
-  SwathPlan plan() {
+  std::vector<SwathHeading> rank(const std::vector<double>& headings) const {
+    const double bin = field_.width() / kCoarseBins;
+    const Remains coarse(remains_, std::max(0.6 * bin, std::sqrt(remains_.area / kCoarseSpots)));
+    std::vector<SwathHeading> ranked;
+    for (const double heading : headings) {
+      const Profile profile(coarse, heading, bin);
+      double worth = 0.0;
+      for (int offset = 0; offset < kCoarseBins; ++offset) {
+        worth = std::max(worth, worthOf(profile, kCoarseBins, offset));
+      }
+      ranked.push_back({heading, worth});
+    }
+    const auto better = [](const SwathHeading& a, const SwathHeading& b) { return a.worth > b.worth; };
+    std::stable_sort(ranked.begin(), ranked.end(), better);
+    return ranked;
+  }
+
+  SwathPlan plan(const std::vector<SwathHeading>& headings) const {
     Layout best;
-    for (const double heading : finalists()) {
+    for (std::size_t i = 0; i < std::min(kFinalists, headings.size()); ++i) {
       field_.cancel().throwIfCancelled();
-      const Profile profile(remains_, heading, field_.width() / kBins);
+      const Profile profile(remains_, headings[i].heading, field_.width() / kBins);
       for (int offset = 0; offset < kBins; ++offset) {
-        const Layout layout{heading, offset, worthOf(profile, kBins, offset)};
+        const Layout layout{headings[i].heading, offset, worthOf(profile, kBins, offset)};
         if (layout.worth > best.worth) best = layout;
       }
     }
@@ -37,7 +55,6 @@ class SwathSearch {
     if (best.worth <= 0.0) return plan;
     plan.worth = best.worth;
     plan.works = lay(Profile(remains_, best.heading, field_.width() / kBins), best.offset);
-    for (const Work& work : plan.works) grid_.sweep(work.ways.front(), field_.width());
     return plan;
   }
 
@@ -49,75 +66,33 @@ class SwathSearch {
     double worth = 0.0;
   };
 
-  std::vector<double> headings() const {
-    if (field_.params().swath_heading) return {*field_.params().swath_heading};
-    std::vector<double> all;
-    for (const shapes::Shape& shape : field_.workable()) {
-      const std::vector<Point2d> points = pointsOf(shape.outer());
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        const Point2d edge = points[(i + 1) % points.size()] - points[i];
-        if (edge.norm() > 4.0 * field_.width()) all.push_back(headingOf(edge));
-      }
-    }
-    for (int i = 0; i < kHeadings; ++i) all.push_back(M_PI * i / kHeadings);
-    for (double& heading : all) heading -= M_PI * std::floor(heading / M_PI);
-    std::sort(all.begin(), all.end());
-    std::vector<double> distinct;
-    for (const double heading : all) {
-      if (distinct.empty() || heading - distinct.back() > 0.01) distinct.push_back(heading);
-    }
-    return distinct;
-  }
-
-  /// The headings that look best on coarse bins.
-  std::vector<double> finalists() const {
-    std::vector<double> all = headings();
-    if (all.size() <= kFinalists) return all;
-    const double bin = field_.width() / kCoarseBins;
-    const Remains coarse(remains_, std::max(0.6 * bin, std::sqrt(remains_.area / kCoarseSpots)));
-    std::vector<std::pair<double, double>> ranked;  // worth, heading
-    for (const double heading : all) {
-      const Profile profile(coarse, heading, bin);
-      double worth = 0.0;
-      for (int offset = 0; offset < kCoarseBins; ++offset) {
-        worth = std::max(worth, worthOf(profile, kCoarseBins, offset));
-      }
-      ranked.emplace_back(-worth, heading);
-    }
-    std::sort(ranked.begin(), ranked.end());
-    all.clear();
-    for (std::size_t i = 0; i < kFinalists; ++i) all.push_back(ranked[i].second);
-    return all;
-  }
-
-  /// Visits each line of a layout: first row of bins, distance across, and worth of each column.
+  /// Searches each line of a layout, and hands it over with its distance across.
   template <class Visit>
   void visitLines(const Profile& profile, int bins, int offset, const Visit& visit) const {
+    StretchSearch search(prices_.turn, profile.bin());
     const double pitch = (field_.width() - field_.params().overlap) / profile.bin();
     for (double first = -offset; first < profile.rows(); first += pitch) {
       const int row = static_cast<int>(std::lround(first));
       const double across = first * profile.bin() + field_.width() / 2.0;
-      visit(across, [&profile, row, bins, across, this](int i) {
-        if ((grid_.at(profile.point((i + 0.5) * profile.bin(), across)) & kOpen) == 0) return kNever;
-        return price_ * profile.left(i, row, bins) - profile.bin();
-      });
+      if (prices_.unswept * profile.areaOf(row, row + bins) <= prices_.turn) continue;
+      const float *low = profile.below(row), *high = profile.below(row + bins);
+      const double worth = search.best(
+          profile.columns(), [&](int i) { return prices_.unswept * static_cast<double>(high[i] - low[i]); },
+          [&](int i) { return (grid_.at(profile.point((i + 0.5) * profile.bin(), across)) & kOpen) != 0; });
+      visit(across, worth, search);
     }
   }
 
   double worthOf(const Profile& profile, int bins, int offset) const {
     double sum = 0.0;
-    visitLines(profile, bins, offset, [&](double, const auto& worth) {
-      sum += bestStretches(profile.columns(), turn_price_, worth, nullptr);
-    });
+    visitLines(profile, bins, offset, [&](double, double worth, const StretchSearch&) { sum += worth; });
     return sum;
   }
 
   std::vector<Work> lay(const Profile& profile, int offset) const {
     std::vector<Work> works;
-    visitLines(profile, kBins, offset, [&](double across, const auto& worth) {
-      std::vector<Stretch> stretches;
-      bestStretches(profile.columns(), turn_price_, worth, &stretches);
-      for (const Stretch& stretch : stretches) addSwath(profile, across, stretch, &works);
+    visitLines(profile, kBins, offset, [&](double across, double, const StretchSearch& search) {
+      for (const Stretch& stretch : search.stretches()) addSwath(profile, across, stretch, &works);
     });
     return works;
   }
@@ -129,25 +104,52 @@ class SwathSearch {
       const Point2d at = profile.point(along, across);
       return Pose2d{at.x(), at.y(), profile.heading()};
     };
-    Work work;
+    std::vector<Curve> ways;
     for (const Pose2d& pose : {poseAtColumn(from), aboutFace(poseAtColumn(to))}) {
       const Curve way = field_.freePart({pose, {{to - from, 0.0}}}, profile.bin());
-      if (way.length() > 0.0) work.ways.push_back(way);
+      if (way.length() > 0.0) ways.push_back(way);
     }
-    if (!work.ways.empty()) works->push_back(work);
+    if (!ways.empty()) works->emplace_back(ways);
   }
 
   const Field& field_;
-  double price_;
-  double turn_price_;
-  CoverageGrid& grid_;
+  SwathPrices prices_;
+  const CoverageGrid& grid_;
   Remains remains_;
 };
 
 }  // namespace
 
-SwathPlan planSwaths(const Field& field, double price, double turn_price, CoverageGrid* grid) {
-  return SwathSearch(field, price, turn_price, grid).plan();
+std::vector<double> swathHeadings(const Field& field) {
+  if (field.params().swath_heading) return {*field.params().swath_heading};
+  std::vector<double> all;
+  for (const shapes::Shape& shape : field.workable()) {
+    const std::vector<Point2d> points = pointsOf(shape.outer());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Point2d edge = points[(i + 1) % points.size()] - points[i];
+      if (edge.norm() > 4.0 * field.width()) all.push_back(headingOf(edge));
+    }
+  }
+  for (int i = 0; i < kHeadings; ++i) all.push_back(M_PI * i / kHeadings);
+  for (double& heading : all) heading -= M_PI * std::floor(heading / M_PI);
+  std::sort(all.begin(), all.end());
+  std::vector<double> distinct;
+  for (const double heading : all) {
+    if (distinct.empty() || heading - distinct.back() > kDistinct) distinct.push_back(heading);
+  }
+  return distinct;
+}
+
+std::vector<SwathHeading> rankHeadings(const Field& field, const SwathPrices& prices, const CoverageGrid& grid,
+                                       const std::vector<double>& headings) {
+  return SwathSearch(field, prices, grid).rank(headings);
+}
+
+SwathPlan planSwaths(const Field& field, const SwathPrices& prices, const std::vector<SwathHeading>& headings,
+                     CoverageGrid* grid) {
+  SwathPlan plan = SwathSearch(field, prices, *grid).plan(headings);
+  for (const Work& work : plan.works) grid->sweep(work.curveOf(0), field.width());
+  return plan;
 }
 
 }  // namespace external_command

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "draft.h"
+#include "plan.h"
+
+namespace external_command {
+
+namespace {
+
+constexpr double kEqual = 1e-9;  ///< plans with costs as near as that are the same
+
+/// How much is tried: the less, the longer one plan takes.
+struct Effort {
+  std::vector<double> prices;          ///< of a square metre that is not swept, times the swath width, rising
+  std::size_t first = 0;               ///< of the prices
+  std::size_t drafts = 1;              ///< numbers of laps for each
+  std::vector<double> choosy = {1.0};  ///< as worksOf()
+  std::size_t finalists = 1;           ///< plans that are settled
+  int rounds = 1;                      ///< as settled()
+};
+
+Effort effortFor(double swaths) {
+  if (swaths < 1500.0) return {{3.0, 4.0, 6.0, 8.0, 12.0, 20.0}, 1, 3, {1.0, 3.0}, 4, 6};
+  if (swaths < 3000.0) return {{3.0, 5.0, 8.0, 12.0, 20.0}, 1, 2, {1.0, 4.0}, 2, 4};
+  if (swaths < 5000.0) return {{3.0, 5.0, 8.0, 12.0, 20.0}, 1, 2, {1.0}, 2, 3};
+  return {{4.0}, 0, 1, {1.0}, 1, 1};
+}
+
+/// Tries plans, and looks closely at the best ones.
+class Contest {
+ public:
+  explicit Contest(const Field& field)
+      : field_(field),
+        routes_(field),
+        empty_(field.makeGrid()),
+        goal_(std::max(empty_.area(kGoal, 0), 1e-9)),
+        effort_(effortFor(goal_ / (field.width() * field.width()))) {}
+
+  Plan run() {
+    tryPrices();
+    Entry best;
+    for (Entry& entry : entries_) {
+      Plan plan = settled(field_, std::move(entry.plan), effort_.rounds, &routes_);
+      const double cost = costOf(field_, plan.length, plan.covered, goal_);
+      if (best.plan.steps.empty() || cost < best.cost) best = {std::move(plan), cost};
+    }
+    return std::move(best.plan);
+  }
+
+ private:
+  struct Entry {
+    Plan plan;
+    double cost = 0.0;
+  };
+
+  /// Dearer area first as long as too much stays unswept; then cheaper area as long as that makes it better.
+  void tryPrices() {
+    const auto& prices = effort_.prices;
+    std::size_t last = effort_.first;
+    while (last < prices.size() && (tryPrice(prices[last]) || isFarShort()) && isShort()) ++last;
+    for (std::size_t i = effort_.first; i-- > 0 && last == effort_.first;) {
+      if (!tryPrice(prices[i])) break;
+    }
+  }
+
+  double bestShare() const { return entries_.front().plan.covered / goal_; }
+  bool isShort() const { return bestShare() < field_.params().target_coverage; }
+  bool isFarShort() const { return bestShare() < kLowCoverage; }
+
+  /// @return whether that is the best so far.
+  bool tryPrice(double share) {
+    const double price = share / field_.width();
+    bool improved = false;
+    for (const Draft& draft : makeDrafts(field_, empty_, price, effort_.drafts)) {
+      for (const double choosy : effort_.choosy) {
+        improved = enter(planOf(field_, worksOf(field_, draft, price, choosy), price, &routes_)) || improved;
+      }
+    }
+    return improved;
+  }
+
+  /// @return whether that is the best so far.
+  bool enter(Plan plan) {
+    const double cost = costOf(field_, plan.length, plan.covered, goal_);
+    const auto better = [&](const Entry& entry) { return entry.cost <= cost; };
+    const auto place = std::find_if_not(entries_.begin(), entries_.end(), better);
+    const bool is_best = place == entries_.begin();
+    const auto equal = [&](const Entry& entry) { return std::abs(entry.cost - cost) < kEqual; };
+    if (std::any_of(entries_.begin(), entries_.end(), equal)) return false;
+    entries_.insert(place, {std::move(plan), cost});
+    if (entries_.size() > effort_.finalists) entries_.pop_back();
+    return is_best;
+  }
+
+  const Field& field_;
+  Routes routes_;
+  CoverageGrid empty_;
+  double goal_;
+  Effort effort_;
+  std::vector<Entry> entries_;  ///< the best ones, best first
+};
+
+}  // namespace
+
+Plan bestPlan(const Field& field) { return Contest(field).run(); }
+
+}  // namespace external_command

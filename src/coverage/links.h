@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "field.h"
+#include "routes.h"
+#include "work.h"
+
+namespace external_command {
+
+/// A piece of work, and which of its ways is taken.
+struct Step {
+  std::size_t work = 0;
+  std::size_t way = 0;
+};
+
+/// About how far it is from the end of one piece of work to the start of another: the Reeds-Shepp distance, and what
+/// the way round things in between adds. Remembers what it has worked out.
+class Links {
+ public:
+  /// `works` may grow at its end.
+  Links(const Field& field, const std::vector<Work>& works, Routes* routes);
+
+  const Pose2d& startOf(const Step& step) const { return works_[step.work].startOf(step.way); }
+  const Pose2d& endOf(const Step& step) const { return works_[step.work].endOf(step.way); }
+
+  /// From the end of `from`, or from the vehicle's start without it; 0 if there is no start, or nothing to go to [m].
+  double price(const Step* from, const Step* to);
+
+  /// Works out the way that price() only guesses at. @return whether it differs.
+  bool settle(const Step* from, const Step* to);
+
+  /// The way that was worked out; nullopt if there is none.
+  std::optional<Curve> way(const Step* from, const Step* to) const;
+
+  /// A lower bound of it: the straight distance [m].
+  double bound(const Step* from, const Step* to) const;
+
+  /// A lower bound of what it takes to get from `before` to `first` and from `last` to `after` [m].
+  double bound(const Step* before, const Step& first, const Step& last, const Step* after) const {
+    return bound(before, &first) + bound(&last, after);
+  }
+
+  /// What it adds to a tour to do `first` ... `last` between two steps, the way between those two not counted [m].
+  double detour(const Step* before, const Step& first, const Step& last, const Step* after) {
+    return price(before, &first) + price(&last, after) - price(before, after);
+  }
+
+ private:
+  static std::uint64_t idOf(const Step* from, const Step* to);
+
+  const Field& field_;
+  const std::vector<Work>& works_;
+  Routes& routes_;
+  Pose2d beginOf(const Step* from) const { return from == nullptr ? *field_.start() : endOf(*from); }
+
+  std::unordered_map<std::uint64_t, float> known_;
+  std::unordered_map<std::uint64_t, std::optional<Curve>> ways_;
+};
+
+/// The step at a place of a tour; null before the first and after the last.
+inline const Step* stepAt(const std::vector<Step>& tour, long i) {
+  return i < 0 || i >= static_cast<long>(tour.size()) ? nullptr : &tour[static_cast<std::size_t>(i)];
+}
+
+}  // namespace external_command

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plan.h"
+
+#include <algorithm>
+
+#include "swaths.h"
+#include "tally.h"
+#include "tour.h"
+
+namespace external_command {
+
+namespace {
+
+constexpr double kDear = 12.0;  ///< price of a square metre, times the width, for which the last swaths are looked for
+constexpr int kRounds = 4;      ///< of swaths for what is left
+constexpr double kCheapTurn = 0.3;  ///< price of a turn in their search, in radii: the tour knows the real one
+
+class Planner {
+ public:
+  Planner(const Field& field, Plan plan, Routes* routes)
+      : field_(field),
+        plan_(std::move(plan)),
+        links_(field, plan_.works, routes),
+        tally_(field.makeGrid(), field.width()),
+        goal_(std::max(tally_.grid().area(kGoal, 0), 1e-9)) {}
+
+  Plan make() {
+    order();
+    count();
+    leaveOut();
+    putIn();
+    chooseWays();
+    return finish();
+  }
+
+  Plan settle(int rounds) {
+    is_settled_ = true;
+    count();
+    for (int round = 0; round < rounds && settleLinks(); ++round) {
+      improve();
+      chooseWays();
+      if (round == 1) putIn();
+      leaveOut();
+    }
+    settleLinks();
+    plan_.links.clear();
+    for (long i = 0; at(i) != nullptr; ++i) plan_.links.push_back(links_.way(at(i - 1), at(i)));
+    return finish();
+  }
+
+ private:
+  Plan finish() {
+    plan_.covered = tally_.covered();
+    plan_.length = length();
+    return std::move(plan_);
+  }
+
+  void count() {
+    for (const Step& step : plan_.steps) tally_.add(wayOf(step));
+  }
+
+  /// @return whether any way is not what it was taken for.
+  bool settleLinks() {
+    bool changed = false;
+    for (long i = 0; at(i) != nullptr; ++i) changed = links_.settle(at(i - 1), at(i)) || changed;
+    return changed;
+  }
+
+  bool isBorderLap(const Step& step) const {
+    const Work& work = plan_.works[step.work];
+    return work.lap >= 0 && !work.is_ring;
+  }
+
+  /// The order of what comes after the laps along the border.
+  void improve() {
+    if (!field_.params().headland_first) return;
+    auto first = plan_.steps.end();
+    while (first != plan_.steps.begin() && !isBorderLap(*(first - 1))) --first;
+    Tour tour(&links_, plan_.works, first == plan_.steps.begin() ? std::nullopt : std::optional<Step>(*(first - 1)));
+    tour.take({first, plan_.steps.end()});
+    tour.improve();
+    for (auto step = first; step != plan_.steps.end(); ++step) tally_.remove(wayOf(*step));
+    std::copy(tour.steps().begin(), tour.steps().end(), first);
+    for (auto step = first; step != plan_.steps.end(); ++step) tally_.add(wayOf(*step));
+  }
+
+  /// Begins each closed lap where that suits what comes before and after it.
+  void chooseWays() {
+    for (std::size_t i = 0; i < plan_.steps.size(); ++i) {
+      Step& step = plan_.steps[i];
+      if (!plan_.works[step.work].isClosed()) continue;
+      const Step *before = at(static_cast<long>(i) - 1), *after = at(static_cast<long>(i) + 1);
+      const Step old = step;
+      double best = links_.price(before, &step) + links_.price(&step, after);
+      for (std::size_t way = 0; way < plan_.works[old.work].ways(); ++way) {
+        const Step other{old.work, way};
+        if (links_.bound(before, other, other, after) >= best) continue;
+        const double price = links_.price(before, &other) + links_.price(&other, after);
+        if (price < best) best = price, step = other;
+      }
+      if (step.way == old.way) continue;
+      tally_.remove(wayOf(old));
+      tally_.add(wayOf(step));
+    }
+  }
+
+  const Step* at(long i) const { return stepAt(plan_.steps, i); }
+  Curve wayOf(const Step& step) const { return plan_.works[step.work].curveOf(step.way); }
+
+  /// Laps along the border before or after the swaths, rings around holes where they cost least.
+  void order() {
+    std::vector<std::size_t> swaths, rings, laps;
+    for (std::size_t i = 0; i < plan_.works.size(); ++i) {
+      const Work& work = plan_.works[i];
+      (work.lap < 0 ? swaths : work.is_ring ? rings : laps).push_back(i);
+    }
+    if (!field_.params().headland_first) std::swap(laps, swaths);
+    for (const auto& part : {laps, swaths}) {
+      Tour tour(&links_, plan_.works, plan_.steps.empty() ? std::nullopt : std::optional<Step>(plan_.steps.back()));
+      tour.build(part);
+      tour.improve();
+      plan_.steps.insert(plan_.steps.end(), tour.steps().begin(), tour.steps().end());
+    }
+    for (const std::size_t ring : rings) insert(cheapestInsertion(&links_, plan_.works, ring, plan_.steps));
+  }
+
+  void insert(const Insertion& insertion) {
+    plan_.steps.insert(plan_.steps.begin() + static_cast<long>(insertion.place), insertion.step);
+  }
+
+  double length() {
+    double sum = 0.0;
+    for (long i = 0; at(i) != nullptr; ++i) sum += links_.price(at(i - 1), at(i)) + plan_.works[at(i)->work].length();
+    return sum;
+  }
+
+  /// Whether so many metres [m] are worth so much area [m^2]; both negative if it is to be left out.
+  bool pays(double more_length, double more_area) {
+    if (!is_settled_) return plan_.price * more_area > more_length;
+    const double now = length(), covered = tally_.covered();
+    return costOf(field_, now + more_length, covered + more_area, goal_) < costOf(field_, now, covered, goal_);
+  }
+
+  void leaveOut() {
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (long i = 0; at(i) != nullptr; ++i) {
+        const Step step = *at(i);
+        const Curve way = wayOf(step);
+        const double saved = way.length() + links_.detour(at(i - 1), step, step, at(i + 1));
+        if (!pays(-saved, -tally_.only(way))) continue;
+        tally_.remove(way);
+        plan_.steps.erase(plan_.steps.begin() + i--);
+        changed = true;
+      }
+    }
+  }
+
+  void putIn() {
+    const SwathPrices prices{is_settled_ ? std::max(plan_.price, kDear / field_.width()) : plan_.price,
+                             kCheapTurn * field_.radius()};
+    bool changed = true;
+    for (int round = 0; round < kRounds && changed; ++round) {
+      field_.cancel().throwIfCancelled();
+      changed = false;
+      CoverageGrid grid = tally_.grid();
+      const auto headings = rankHeadings(field_, prices, grid, swathHeadings(field_));
+      for (const Work& work : planSwaths(field_, prices, headings, &grid).works) {
+        plan_.works.push_back(work);
+        const Insertion insertion = cheapestInsertion(&links_, plan_.works, plan_.works.size() - 1, plan_.steps);
+        const Curve way = work.curveOf(insertion.step.way);
+        if (!pays(way.length() + insertion.price, tally_.gain(way))) continue;
+        tally_.add(way);
+        insert(insertion);
+        changed = true;
+      }
+    }
+  }
+
+  const Field& field_;
+  Plan plan_;
+  Links links_;
+  Tally tally_;
+  double goal_;              ///< [m^2]
+  bool is_settled_ = false;  ///< whether the lengths of the ways between are known
+};
+
+}  // namespace
+
+Plan planOf(const Field& field, std::vector<Work> works, double price, Routes* routes) {
+  Plan plan;
+  plan.works = std::move(works);
+  plan.price = price;
+  return Planner(field, std::move(plan), routes).make();
+}
+
+Plan settled(const Field& field, Plan plan, int rounds, Routes* routes) {
+  return Planner(field, std::move(plan), routes).settle(rounds);
+}
+
+}  // namespace external_command

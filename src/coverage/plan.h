@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "field.h"
+#include "links.h"
+#include "work.h"
+
+namespace external_command {
+
+/// Work, and the order in which it is done.
+struct Plan {
+  std::vector<Work> works;
+  std::vector<Step> steps;  ///< not every work need be done
+  double price = 0.0;       ///< that a square metre may cost [m/m^2]
+  double length = 0.0;      ///< with the ways between; about, until it is settled [m]
+  double covered = 0.0;     ///< of the goal [m^2]
+  /// Once settled: the ways that lead from the field's start to the first step, and from each to the next.
+  std::vector<std::optional<Curve>> links;
+};
+
+/// Share of the goal below which coverage is bought at almost any price.
+constexpr double kLowCoverage = 0.974;
+
+/// What a plan is worth, less being better: its length as multiple of a perfect path's, and prices for what it misses.
+/// @param length   driven [m].
+/// @param covered  of the goal [m^2].
+/// @param goal     [m^2].
+double costOf(const Field& field, double length, double covered, double goal);
+
+/// Orders `works`; then leaves out what costs more than it brings, and puts in swaths that bring more than they cost.
+/// @param price  of a square metre that is not swept [m/m^2].
+Plan planOf(const Field& field, std::vector<Work> works, double price, Routes* routes);
+
+/// The plan with the ways between its steps worked out, and changed where those turn out longer than they looked
+/// (lazy evaluation of edges, as in C. Dellin and S. Srinivasa 2016).
+/// @param rounds  of changes, at most.
+Plan settled(const Field& field, Plan plan, int rounds, Routes* routes);
+
+/// The best of several plans, with more and fewer laps, and for higher and lower prices of what is not swept.
+Plan bestPlan(const Field& field);
+
+}  // namespace external_command
