@@ -88,7 +88,7 @@ class CommandClient:
         except rospy.ROSException as error:
             raise ServiceUnavailable("no service %s within %.1f s: is the gateway running in namespace %s?" %
                                      (name, self._timeout, self._namespace)) from error
-        except rospy.ServiceException as error:
+        except (rospy.ServiceException, rospy.exceptions.TransportException) as error:
             raise ServiceUnavailable("the call of %s failed: %s" % (name, error)) from error
 
 

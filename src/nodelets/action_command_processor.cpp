@@ -47,11 +47,11 @@ ActionCommandProcessor::~ActionCommandProcessor() {
 void ActionCommandProcessor::start() {
   ServiceCommandProcessor<Action>::start();
   readParameters();
-  for (const std::string& topic : topicNames("output_command_name", "planning/pad")) {
+  for (const std::string& topic : outputTopics("planning/pad")) {
     planning_pads_.push_back(context().advertise<PlanningPad>(topic, false));
   }
   std::string control_pad = "control/pad";
-  parameters().read("control_pad_name", &control_pad);
+  parameters().readName("control_pad_name", &control_pad);
   control_pad_ = context().advertise<ControlPad>(control_pad, false);
   subscribe();
 }
@@ -71,8 +71,8 @@ void ActionCommandProcessor::readParameters() {
 
 void ActionCommandProcessor::subscribe() {
   std::string chassis_topic = "canbus/chassis", state_topic = "planning/state";
-  parameters().read("chassis_name", &chassis_topic);
-  parameters().read("planning_state_name", &state_topic);
+  parameters().readName("chassis_name", &chassis_topic);
+  parameters().readName("planning_state_name", &state_topic);
 
   ros::NodeHandle nh(getNodeHandle());
   nh.setCallbackQueue(watch_lane_.queue());

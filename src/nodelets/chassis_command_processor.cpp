@@ -60,7 +60,7 @@ void ChassisCommandProcessor::start() {
   parameters().readWithin("timeout", 0.01, 86400.0, &timeout);
   parameters().readWithin("max_request_age", 0.01, 86400.0, &max_request_age_);
   pending_.emplace(timeout);
-  for (const std::string& topic : topicNames("output_command_name", "canbus/chassis_control")) {
+  for (const std::string& topic : outputTopics("canbus/chassis_control")) {
     publishers_.push_back(context().advertise<ChassisCommand>(topic, false));
   }
   subscribe();
@@ -68,7 +68,7 @@ void ChassisCommandProcessor::start() {
 
 void ChassisCommandProcessor::subscribe() {
   std::string topic = "canbus/chassis";
-  parameters().read("chassis_name", &topic);
+  parameters().readName("chassis_name", &topic);
   ros::NodeHandle nh(getNodeHandle());
   nh.setCallbackQueue(watch_lane_.queue());
   const boost::function<void(const Chassis&)> on_chassis = [this](const Chassis& chassis) {

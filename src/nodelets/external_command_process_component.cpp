@@ -55,7 +55,7 @@ void ExternalCommandProcessComponent::start() {
 
 void ExternalCommandProcessComponent::open() {
   std::string service = "external_command/command_status";
-  parameters().read("command_status_service_name", &service);
+  parameters().readName("command_status_service_name", &service);
   status_lane_ = std::make_unique<DedicatedLane>();
   ros::NodeHandle nh(getNodeHandle());
   nh.setCallbackQueue(status_lane_->queue());
@@ -90,7 +90,11 @@ std::string ExternalCommandProcessComponent::load(const std::string& type) {
   if (!unknown.empty()) return unknown;
   // Beside the component, not below it: the same relative names then mean the same however a processor is loaded.
   const std::string name = ros::names::append(ros::names::parentNamespace(getName()), nodeletNameOf(type));
-  if (loader_.load(name, type, getRemappingArgs(), getMyArgv())) return "";
+  try {
+    if (loader_.load(name, type, getRemappingArgs(), getMyArgv())) return "";
+  } catch (const std::exception& error) {
+    return error.what();  // of the constructor
+  }
   const std::string reason = startFailureOf(name);
   return reason.empty() ? "nodelet could not load it; the lines above tell why" : reason;
 }

@@ -39,10 +39,10 @@ OldRoutingAdapter::~OldRoutingAdapter() {
 }
 
 void OldRoutingAdapter::start() {
-  parameters().read("routing_request_name", &request_topic_);
-  parameters().read("goal_name", &goal_topic_);
-  parameters().read("lane_follow_service_name", &lane_follow_service_);
-  parameters().read("valet_parking_service_name", &valet_parking_service_);
+  parameters().readName("routing_request_name", &request_topic_);
+  parameters().readName("goal_name", &goal_topic_);
+  parameters().readName("lane_follow_service_name", &lane_follow_service_);
+  parameters().readName("valet_parking_service_name", &valet_parking_service_);
   double tolerance = 3.0;
   parameters().readWithin("way_point_tolerance", 0.0, 1000.0, &tolerance);
   converter_.emplace(contextPtr(), tolerance);

@@ -98,7 +98,7 @@ PathFollowCommandProcessor::~PathFollowCommandProcessor() {
 void PathFollowCommandProcessor::open() {
   MotionCommandProcessor<PathFollow>::open();
   std::string topic;
-  parameters().read("input_path_name", &topic);
+  parameters().readName("input_path_name", &topic);
   if (topic.empty()) return;
   ros::NodeHandle nh(getNodeHandle());
   nh.setCallbackQueue(lane().queue());

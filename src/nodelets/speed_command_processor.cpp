@@ -13,7 +13,7 @@ SpeedCommandProcessor::~SpeedCommandProcessor() { stopServing(); }
 void SpeedCommandProcessor::start() {
   ServiceCommandProcessor<Speed>::start();
   parameters().readWithin("max_request_age", 0.01, 86400.0, &max_request_age_);
-  for (const std::string& topic : topicNames("output_command_name", "planning/speed_command")) {
+  for (const std::string& topic : outputTopics("planning/speed_command")) {
     publishers_.push_back(context().advertise<SpeedCommand>(topic, false));
   }
 }

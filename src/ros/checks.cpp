@@ -8,6 +8,15 @@
 
 namespace external_command {
 
+namespace {
+
+void requireCoordinate(double value, const std::string& field) {
+  requireFinite(value, field);
+  requireWithin(value, -RequestLimits::kCoordinate, RequestLimits::kCoordinate, field);
+}
+
+}  // namespace
+
 void requireFinite(double value, const std::string& field) {
   if (!std::isfinite(value)) throw InvalidRequest(text(field, " is ", value, "; it must be finite"));
 }
@@ -28,19 +37,19 @@ void requireSize(std::size_t size, std::size_t low, std::size_t high, const std:
 }
 
 void requireFinite(const Pose& pose, const std::string& field) {
-  requireFinite(pose.x, field + ".x");
-  requireFinite(pose.y, field + ".y");
+  requireCoordinate(pose.x, field + ".x");
+  requireCoordinate(pose.y, field + ".y");
   if (pose.has_heading) requireFinite(pose.heading, field + ".heading");
 }
 
 void requireFinite(const geometry_msgs::Point& point, const std::string& field) {
-  requireFinite(point.x, field + ".x");
-  requireFinite(point.y, field + ".y");
+  requireCoordinate(point.x, field + ".x");
+  requireCoordinate(point.y, field + ".y");
 }
 
 void requireFresh(const ros::Time& stamp, double max_age) {
   if (stamp.isZero()) return;
-  const double age = (ros::Time::now() - stamp).toSec();
+  const double age = ros::Time::now().toSec() - stamp.toSec();  // a ros::Duration holds 68 years only
   if (age > max_age) {
     throw StaleRequest(text("header.stamp is ", age, " s old; the limit is ", max_age,
                             " s (~max_request_age): send it again, or leave the stamp empty"));

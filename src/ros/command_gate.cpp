@@ -21,7 +21,7 @@ CommandGate::Ticket CommandGate::begin(std::int64_t command_id, const Arrival& a
   Ticket ticket;
   ticket.command_id_ = command_id;
   ticket.epoch_ = ++epoch_;
-  ticket.token_ = planning_.token();
+  ticket.planning_ = planning_;
   return ticket;
 }
 

@@ -6,6 +6,7 @@
 
 #include <map>
 #include <mutex>
+#include <stdexcept>
 
 #include "external_command/core/text.h"
 
@@ -30,18 +31,32 @@ CommandProcessor::~CommandProcessor() = default;
 
 void CommandProcessor::onInit() {
   keepQueues();
-  // nodelet swallows what onInit throws, so it is told here.
+  std::string reason;
   try {
-    parameters_ = std::make_unique<const ParameterReader>(getPrivateNodeHandle());
-    context_ = ProcessContext::acquire(getNodeHandle(), contextParameters());
-    start();
-    open();
-    noteStartFailure(getName(), "");
+    startAll();
   } catch (const std::exception& error) {
-    ROS_FATAL_STREAM(getName() << " cannot start: " << error.what());
-    noteStartFailure(getName(), error.what());
-    throw;
+    reason = error.what();
+    if (reason.empty()) reason = "an exception without a text";
+  } catch (...) {
+    reason = "an exception of unknown type";
   }
+  noteStartFailure(getName(), reason);
+  if (reason.empty()) return;
+  // nodelet tells nothing of what onInit throws, or ends the process where it is no std::exception. The library that
+  // the original exception comes from may be closed before the exception is destroyed, so another one goes on.
+  if (ros::isShuttingDown()) {
+    ROS_WARN_STREAM(getName() << " was told to shut down while it was starting: " << reason);
+  } else {
+    ROS_FATAL_STREAM(getName() << " cannot start: " << reason);
+  }
+  throw std::runtime_error(reason);
+}
+
+void CommandProcessor::startAll() {
+  parameters_ = std::make_unique<const ParameterReader>(getPrivateNodeHandle());
+  context_ = ProcessContext::acquire(getNodeHandle(), contextParameters());
+  start();
+  open();
 }
 
 /// nodelet::Loader deletes the callback queues of a nodelet that did not start before the nodelet; its subscribers
@@ -60,8 +75,16 @@ ros::NodeHandle CommandProcessor::contextParameters() const {
 
 std::vector<std::string> CommandProcessor::topicNames(const std::string& key, const std::string& fallback) const {
   std::vector<std::string> names = {fallback};
-  parameters().read(key, &names);
+  parameters().readNames(key, &names);
   return names;
+}
+
+std::vector<std::string> CommandProcessor::outputTopics(const std::string& fallback) const {
+  const std::string key = "output_command_name";
+  const std::vector<std::string> names = topicNames(key, fallback);
+  if (!names.empty()) return names;
+  throw InvalidParameter(
+      text("parameter ", parameters().nameOf(key), " is an empty list, commands would go nowhere; name a topic"));
 }
 
 std::string startFailureOf(const std::string& nodelet_name) {

@@ -18,11 +18,13 @@ CommandService::~CommandService() {
 
 void CommandService::stopServing() {
   server_.shutdown();
+  plans_in_work_.cancelForGood();
+  dry_runs_in_work_.cancelForGood();
   lane_.reset();  // joins
 }
 
 void CommandService::start() {
-  parameters().read("input_command_name", &service_name_);
+  parameters().readName("input_command_name", &service_name_);
   log_publisher_ = context().advertise<CommandLogEntry>(context().params().log_topic, false);
   ros::NodeHandle nh(getNodeHandle());
   nh.setCallbackQueue(context().housekeeping().queue());

@@ -5,6 +5,9 @@
 
 #include <utility>
 
+#include "external_command/core/error.h"
+#include "external_command/core/text.h"
+
 namespace external_command {
 
 namespace {
@@ -13,13 +16,21 @@ constexpr double kDrawPeriod = 0.05;  // [s]
 
 }  // namespace
 
+void requireAdvertised(bool is_advertised, const std::string& topic, const std::string& type) {
+  if (is_advertised) return;
+  throw InternalError(text("topic ", topic, " cannot be published as ", type,
+                           ": this process publishes another type there; give one of the two another name"));
+}
+
 Display::Display(ros::NodeHandle nh, const DisplayParams& params, std::shared_ptr<const HdMap> map)
     : params_(params), map_(std::move(map)) {
   path_publisher_ = nh.advertise<nav_msgs::Path>(params_.path_topic, 1, true);
+  requireAdvertised(path_publisher_, nh.resolveName(params_.path_topic), "nav_msgs/Path");
   nh.setCallbackQueue(lane_.queue());
   const ros::SubscriberStatusCallback greet_new = [this](const ros::SingleSubscriberPublisher& s) { greet(s); };
   markers_publisher_ = nh.advertise<visualization_msgs::MarkerArray>(
       params_.markers_topic, 10, greet_new, ros::SubscriberStatusCallback(), ros::VoidConstPtr(), true);
+  requireAdvertised(markers_publisher_, nh.resolveName(params_.markers_topic), "visualization_msgs/MarkerArray");
   ros::SteadyTimerOptions options;
   options.period = ros::WallDuration(kDrawPeriod);
   options.callback = [this](const ros::SteadyTimerEvent&) { drawNewest(); };

@@ -21,6 +21,12 @@ void reportRoute(const HdMap& map, const Route& route, PlanReport* report) {
 
 }  // namespace
 
+void requireNotMore(std::size_t dry_runs, std::size_t limit) {
+  if (dry_runs <= limit) return;
+  throw NotReady(
+      text(limit, " dry runs are in work at this service, the most there may be; wait for the answer to one"));
+}
+
 MotionFlow::MotionFlow(ProcessContext& context, const std::vector<std::string>& command_topics,
                        const std::string& history_topic)
     : context_(context),

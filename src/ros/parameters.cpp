@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "external_command/ros/parameters.h"
 
-#include "external_command/core/error.h"
-#include "external_command/core/text.h"
+#include <ros/init.h>
+#include <ros/master.h>
+#include <ros/names.h>
+#include <ros/time.h>
 
 namespace external_command {
 
 namespace {
 
 using XmlRpc::XmlRpcValue;
+
+constexpr int kMasterTries = 3;
+constexpr double kMasterPause = 0.2;  // [s]
 
 const char* nameOfType(XmlRpcValue::Type type) {
   switch (type) {
@@ -40,11 +45,18 @@ double toDouble(XmlRpcValue& value, const std::string& name) {
 }
 
 template <class Value>
-void readAs(const ros::NodeHandle& nh, const std::string& key, XmlRpcValue::Type type, Value* value) {
+void readAs(const ParameterReader& reader, const std::string& key, XmlRpcValue::Type type, Value* value) {
   XmlRpcValue found;
-  if (!nh.getParam(key, found)) return;
-  if (found.getType() != type) refuseType(nh.resolveName(key), nameOfType(type), found.getType());
+  if (!reader.raw(key, &found)) return;
+  if (found.getType() != type) refuseType(reader.nameOf(key), nameOfType(type), found.getType());
   *value = static_cast<Value&>(found);
+}
+
+void requireName(const std::string& parameter, const std::string& name) {
+  std::string reason = name.empty() ? "it is empty" : "";
+  if (!name.empty() && name[0] == '~') reason = "private names (~) have no meaning here";
+  if (reason.empty() && ros::names::validate(name, reason)) return;
+  throw InvalidParameter(text("parameter ", parameter, " is '", name, "', no name of a topic or service: ", reason));
 }
 
 template <class Number>
@@ -55,24 +67,36 @@ void requireRange(const std::string& name, Number low, Number high, Number value
 
 }  // namespace
 
-void ParameterReader::read(const std::string& key, bool* value) const {
-  readAs(nh_, key, XmlRpcValue::TypeBoolean, value);
+bool ParameterReader::raw(const std::string& key, XmlRpcValue* value) const {
+  for (int tries = 0; tries < kMasterTries && !ros::isShuttingDown(); ++tries) {
+    if (nh_.getParam(key, *value)) return true;
+    if (ros::master::check()) return false;
+    ros::WallDuration(kMasterPause).sleep();  // a signal breaks a call off too, and roscpp needs a moment to act on it
+  }
+  throw InternalError(text("parameter ", nameOf(key), " cannot be read: the ROS master at ", ros::master::getURI(),
+                           " does not answer; start it, and then this again"));
 }
 
-void ParameterReader::read(const std::string& key, int* value) const { readAs(nh_, key, XmlRpcValue::TypeInt, value); }
+void ParameterReader::read(const std::string& key, bool* value) const {
+  readAs(*this, key, XmlRpcValue::TypeBoolean, value);
+}
+
+void ParameterReader::read(const std::string& key, int* value) const {
+  readAs(*this, key, XmlRpcValue::TypeInt, value);
+}
 
 void ParameterReader::read(const std::string& key, double* value) const {
   XmlRpcValue found;
-  if (nh_.getParam(key, found)) *value = toDouble(found, nameOf(key));
+  if (raw(key, &found)) *value = toDouble(found, nameOf(key));
 }
 
 void ParameterReader::read(const std::string& key, std::string* value) const {
-  readAs(nh_, key, XmlRpcValue::TypeString, value);
+  readAs(*this, key, XmlRpcValue::TypeString, value);
 }
 
 void ParameterReader::read(const std::string& key, std::vector<std::string>* value) const {
   XmlRpcValue found;
-  if (!nh_.getParam(key, found)) return;
+  if (!raw(key, &found)) return;
   if (found.getType() != XmlRpcValue::TypeArray) refuseType(nameOf(key), "a list of strings", found.getType());
   std::vector<std::string> items;
   for (int i = 0; i < found.size(); ++i) {
@@ -94,6 +118,17 @@ void ParameterReader::readWithin(const std::string& key, int low, int high, int*
   requireRange(nameOf(key), low, high, *value);
 }
 
+void ParameterReader::readName(const std::string& key, std::string* value) const {
+  const bool may_be_empty = value->empty();
+  read(key, value);
+  if (!value->empty() || !may_be_empty) requireName(nameOf(key), *value);
+}
+
+void ParameterReader::readNames(const std::string& key, std::vector<std::string>* value) const {
+  read(key, value);
+  for (std::size_t i = 0; i < value->size(); ++i) requireName(text(nameOf(key), "[", i, "]"), (*value)[i]);
+}
+
 VehicleParams readVehicleParams(const ParameterReader& reader) {
   VehicleParams vehicle;
   reader.read("wheelbase", &vehicle.wheelbase);
@@ -107,15 +142,15 @@ VehicleParams readVehicleParams(const ParameterReader& reader) {
   reader.read("max_deceleration", &vehicle.max_deceleration);
   reader.read("max_lateral_acceleration", &vehicle.max_lateral_acceleration);
   reader.read("max_steering_rate", &vehicle.max_steering_rate);
-  vehicle.validate();
+  reader.validate(vehicle);
   return vehicle;
 }
 
 RouterParams readRouterParams(const ParameterReader& reader) {
   RouterParams params;
   reader.read("min_lane_change_length", &params.min_lane_change_length);
-  reader.read("tight_lane_change_price", &params.tight_lane_change_price);
-  params.validate();
+  reader.readWithin("tight_lane_change_price", 0.0, 1e6, &params.tight_lane_change_price);
+  reader.validate(params);
   return params;
 }
 
@@ -127,7 +162,7 @@ LaneWayParams readLaneWayParams(const ParameterReader& reader) {
   reader.read("off_lane_heading", &params.off_lane_heading);
   reader.read("park_and_go_radius", &params.park_and_go_radius);
   reader.read("parking_lane_radius", &params.parking_lane_radius);
-  params.validate();
+  reader.validate(params);
   return params;
 }
 
@@ -136,7 +171,7 @@ ReferencePathParams readReferencePathParams(const ParameterReader& reader) {
   reader.read("path_spacing", &params.spacing);
   reader.read("lane_change_length", &params.lane_change_length);
   reader.read("default_speed_limit", &params.default_speed_limit);
-  params.validate();
+  reader.validate(params);
   return params;
 }
 

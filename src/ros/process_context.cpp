@@ -40,11 +40,11 @@ ContextParams readContextParams(const ParameterReader& reader) {
   reader.read("base_frame", &params.base_frame);
   reader.readWithin("max_pose_age", 0.01, 3600.0, &params.max_pose_age);
   reader.readWithin("planner_silence_timeout", 0.1, 86400.0, &params.planner_silence_timeout);
-  reader.read("output_command_status_name", &params.status_topic);
-  reader.read("command_log_name", &params.log_topic);
-  reader.read("routing_response_name", &params.routing_response_topic);
-  reader.read("path_name", &params.path_topic);
-  reader.read("markers_name", &params.markers_topic);
+  reader.readName("output_command_status_name", &params.status_topic);
+  reader.readName("command_log_name", &params.log_topic);
+  reader.readName("routing_response_name", &params.routing_response_topic);
+  reader.readName("path_name", &params.path_topic);
+  reader.readName("markers_name", &params.markers_topic);
   params.vehicle = readVehicleParams(reader.within("vehicle"));
   const ParameterReader routing = reader.within("routing");
   params.router = readRouterParams(routing);

@@ -60,6 +60,9 @@ class Component:
         with open(self._log.name, encoding="utf-8", errors="replace") as log:
             return log.read()
 
+    def send_signal(self, number):
+        self._process.send_signal(number)
+
     def wait_for_end(self):
         """The exit code."""
         return self._process.wait(support.DEADLINE)

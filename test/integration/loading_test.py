@@ -97,6 +97,23 @@ class LoadingTest(unittest.TestCase):
                 """))
         return "lost_package/LostProcessor"
 
+    def test_a_topic_that_would_carry_two_types_stops_the_start(self):
+        others = {"lane_follow_command_processor": {"output_command_name": ["planning/pad"]}}
+        self.assert_stops(component([ACTION, LANE_FOLLOW], others), LANE_FOLLOW, NAMESPACE + "/planning/pad",
+                          "external_command/PlanningCommand")
+
+    def test_commands_that_would_go_nowhere_stop_the_start(self):
+        others = {"action_command_processor": {"output_command_name": []}}
+        self.assert_stops(component([ACTION], others), NAMESPACE + "/action_command_processor/output_command_name",
+                          "empty")
+
+    def test_what_is_no_name_of_a_topic_stops_the_start_with_the_parameter(self):
+        for key, value in (("input_command_name", "a b"), ("input_command_name", ""), ("chassis_name", "~chassis"),
+                           ("output_command_name", ["planning/pad", "1st"])):
+            with self.subTest(key=key, value=value):
+                self.assert_stops(component([ACTION], {"action_command_processor": {key: value}}),
+                                  NAMESPACE + "/action_command_processor/" + key, "no name of a topic or service")
+
     def test_starts_the_others_where_not_all_are_required(self):
         broken = {"action_command_processor": {"input_command_name": False}}
         processors = [UNKNOWN, ACTION, LANE_FOLLOW, LANE_FOLLOW]
@@ -121,6 +138,11 @@ class LoadingTest(unittest.TestCase):
             with self.subTest(name):
                 parameters = dict({"processors": [LANE_FOLLOW]}, **{name: value})
                 self.assert_stops(Component(NAMESPACE, {"external_command": parameters}), name, expected)
+
+    def test_a_number_that_is_none_stops_the_start(self):
+        routing = {"tight_lane_change_price": float("nan")}
+        self.assert_stops(component([LANE_FOLLOW], routing=routing), "routing/tight_lane_change_price is nan",
+                          "[0, 1000000]")
 
     def test_the_loader_of_a_manager_is_told_too(self):
         name = "/loading_test_in_manager"

@@ -4,9 +4,7 @@
 import os
 import signal
 import unittest
-import xmlrpc.client
 
-import rosgraph
 import rospy
 import rostest
 
@@ -15,11 +13,6 @@ from external_command.msg import CommandStatus, LaneFollowCommand, PlanningComma
 from external_command.srv import LaneFollow
 
 MANAGER = "/apollo/external_command_manager"
-
-
-def pid_of(node):
-    uri = rosgraph.Master(rospy.get_name()).lookupNode(node)
-    return xmlrpc.client.ServerProxy(uri).getPid(rospy.get_name())[2]
 
 
 def answers():
@@ -35,16 +28,9 @@ def answers():
 class RespawnTest(unittest.TestCase):
     def test_comes_back_after_the_manager_was_killed_and_replays_nothing(self):
         support.wait_until(answers, "the first answer")
-        pid = pid_of(MANAGER)
+        pid = support.pid_of(MANAGER)
         os.kill(pid, signal.SIGKILL)
-
-        def is_another():
-            try:
-                return pid_of(MANAGER) != pid
-            except (OSError, rosgraph.MasterException):
-                return False
-
-        support.wait_until(is_another, "the manager is respawned", 60.0)
+        support.wait_until(lambda: support.pid_of(MANAGER) not in (None, pid), "the manager is respawned", 60.0)
         support.wait_until(answers, "an answer of the new one", 60.0)
         sent = support.Collector("/apollo/planning/command", PlanningCommand)
         self.assertTrue(answers())

@@ -2,7 +2,9 @@
 """What the tests of the running system share: deadlines instead of sleeps."""
 import threading
 import time
+import xmlrpc.client
 
+import rosgraph
 import rospy
 
 from external_command.msg import CommandStatus
@@ -28,6 +30,15 @@ def service(name, service_type):
     """A proxy of a service that is there."""
     rospy.wait_for_service(name, timeout=DEADLINE)
     return rospy.ServiceProxy(name, service_type)
+
+
+def pid_of(node):
+    """Of a node that is up; None for one that is not."""
+    try:
+        uri = rosgraph.Master(rospy.get_name()).lookupNode(node)
+        return xmlrpc.client.ServerProxy(uri).getPid(rospy.get_name())[2]
+    except (OSError, rosgraph.MasterException):
+        return None
 
 
 def wait_until(condition, what, deadline=DEADLINE):

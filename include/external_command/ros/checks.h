@@ -20,6 +20,7 @@ struct RequestLimits {
   static constexpr std::size_t kBlackList = 10000;
   static constexpr std::size_t kPolygons = 1000;
   static constexpr std::size_t kPolygonPoints = 10000;
+  static constexpr double kCoordinate = 1e9;  ///< to either side [m]; no map of the earth reaches further
 };
 
 /// Each throws InvalidRequest with the field's name, its value and what was expected.
@@ -27,8 +28,8 @@ void requireFinite(double value, const std::string& field);
 void requireNotNegative(double value, const std::string& field);
 void requireWithin(double value, double low, double high, const std::string& field);
 void requireSize(std::size_t size, std::size_t low, std::size_t high, const std::string& field);
-void requireFinite(const Pose& pose, const std::string& field);
-void requireFinite(const geometry_msgs::Point& point, const std::string& field);  ///< z is not looked at
+void requireFinite(const Pose& pose, const std::string& field);                   ///< and within kCoordinate
+void requireFinite(const geometry_msgs::Point& point, const std::string& field);  ///< the same; z is not looked at
 
 /// For commands that mean little later. A stamp that is not set passes.
 /// @throws StaleRequest  the stamp differs from now by more than `max_age` [s], to either side.

@@ -27,13 +27,16 @@ class CommandGate {
   /// The right to plan for one command, and to send it once.
   class Ticket {
    public:
-    const CancelToken& cancelToken() const { return token_; }
+    CancelToken cancelToken() const { return planning_.token(); }
+
+    /// Raises the token; for who has another reason to end the planning than the gate has.
+    const CancelSource& cancelSource() const { return planning_; }
 
    private:
     friend class CommandGate;
     std::int64_t command_id_ = 0;
     std::uint64_t epoch_ = 0;
-    CancelToken token_;
+    CancelSource planning_;
   };
 
   Arrival arrive() const;

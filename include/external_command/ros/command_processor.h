@@ -15,7 +15,8 @@ namespace external_command {
 /// Base of every processor: a nodelet, loaded by the component's list or on its own.
 ///
 /// A derived class may   override start() to read parameters and to prepare, and open() to begin to take requests. What
-///                       they throw is logged as FATAL with its text and stops the start.
+///                       they throw is logged as FATAL with its text and stops the start: the processor is destroyed,
+///                       whatever it has begun, while messages and requests come in.
 /// A derived class must  not publish or subscribe before start(); context() and parameters() are there from then on, in
 ///                       any thread.
 class CommandProcessor : public nodelet::Nodelet {
@@ -45,9 +46,13 @@ class CommandProcessor : public nodelet::Nodelet {
   /// A list parameter of topic names: `fallback` where it is not set.
   std::vector<std::string> topicNames(const std::string& key, const std::string& fallback) const;
 
+  /// The topics that commands go to, `output_command_name`. @throws InvalidParameter  there is none.
+  std::vector<std::string> outputTopics(const std::string& fallback) const;
+
  private:
   void onInit() final;
   void keepQueues();
+  void startAll();
 
   std::vector<std::any> queues_;  // first: they outlive what is bound to them
   std::unique_ptr<const ParameterReader> parameters_;

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <ros/callback_queue.h>
-#include <ros/spinner.h>
 
+#include <atomic>
 #include <functional>
+#include <memory>
+#include <thread>
+#include <vector>
 
 namespace external_command {
 
@@ -15,12 +18,12 @@ namespace external_command {
 class DedicatedLane {
  public:
   explicit DedicatedLane(unsigned threads = 1);
-  ~DedicatedLane() { stop(); }
+  ~DedicatedLane();
   DedicatedLane(const DedicatedLane&) = delete;
   DedicatedLane& operator=(const DedicatedLane&) = delete;
 
   /// For the `callback_queue` of advertise, subscribe and timer options.
-  ros::CallbackQueueInterface* queue() { return &queue_; }
+  ros::CallbackQueueInterface* queue() { return queue_.get(); }
 
   /// Runs `job` on the lane. After stop() it is dropped.
   void post(std::function<void()> job);
@@ -29,8 +32,9 @@ class DedicatedLane {
   void stop();
 
  private:
-  ros::CallbackQueue queue_;
-  ros::AsyncSpinner spinner_;
+  std::unique_ptr<ros::CallbackQueue> queue_;
+  std::atomic<bool> is_running_{true};
+  std::vector<std::thread> threads_;
 };
 
 }  // namespace external_command

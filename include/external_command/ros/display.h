@@ -13,6 +13,10 @@
 
 namespace external_command {
 
+/// `is_advertised`: what came of advertising `topic` with `type`.
+/// @throws InternalError  it is not; the text names topic and type.
+void requireAdvertised(bool is_advertised, const std::string& topic, const std::string& type);
+
 struct DisplayParams {
   std::string path_topic;
   std::string markers_topic;
@@ -27,6 +31,7 @@ struct DisplayParams {
 class Display {
  public:
   /// @param map  may be nullptr.
+  /// @throws InternalError  a topic is published with another type in this process.
   Display(ros::NodeHandle nh, const DisplayParams& params, std::shared_ptr<const HdMap> map);
   ~Display() { lane_.stop(); }
 

@@ -23,6 +23,10 @@ struct MotionPlan {
   CommandScene scene;  ///< what rviz shows
 };
 
+/// @throws NotReady  `dry_runs` are more than `limit`; none waits, so that each answer comes within the planning
+/// budget.
+void requireNotMore(std::size_t dry_runs, std::size_t limit);
+
 /// The part of MotionCommandProcessor that does not depend on the service.
 class MotionFlow {
  public:
@@ -60,8 +64,10 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
   using typename ServiceCommandProcessor<Service>::Response;
 
  protected:
-  /// Two requests at once: the newer one must get through while the older one is being planned, and cancels it.
-  explicit MotionCommandProcessor(const std::string& service) : ServiceCommandProcessor<Service>(service, 2) {}
+  /// The newer request must get through while the older one is being planned, and cancels it; and both while as many
+  /// dry runs as may be are in work.
+  explicit MotionCommandProcessor(const std::string& service)
+      : ServiceCommandProcessor<Service>(service, kMaxDryRuns + 2) {}
 
   /// Start, way points, goal and black list on the lanes; nullopt where the command drives no lanes (the default).
   /// @throws InvalidRequest, NotReady, OffMap
@@ -74,8 +80,8 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
   void start() override {
     ServiceCommandProcessor<Service>::start();
     std::string history = "planning_command_history";
-    this->parameters().read("planning_command_history_name", &history);
-    flow_.emplace(this->context(), this->topicNames("output_command_name", "planning/command"), history);
+    this->parameters().readName("planning_command_history_name", &history);
+    flow_.emplace(this->context(), this->outputTopics("planning/command"), history);
   }
 
   CommandStatus execute(const Command& command, const CommandGate::Arrival& arrival, Response* response) final {
@@ -87,10 +93,16 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
     // A dry run must not cancel what is being planned for real, so it takes no ticket.
     std::optional<CommandGate::Ticket> ticket;
     if (!command.dry_run) ticket = this->context().gate().begin(command.command_id, arrival);
+    const CancelSource planning = ticket ? ticket->cancelSource() : CancelSource();
+    PlansInWork& in_work = ticket ? this->plansInWork() : this->dryRunsInWork();
+    const PlansInWork::Entry entry(&in_work, planning);
+    if (!ticket) requireNotMore(in_work.size(), kMaxDryRuns);
     try {
-      processSpecialCommand(command, ticket ? ticket->cancelToken() : CancelToken(), &plan);
+      processSpecialCommand(command, planning.token(), &plan);
     } catch (const Cancelled&) {
-      if (ticket) this->context().gate().requireCurrent(*ticket);  // tells who cancelled it
+      // Who cancelled it?
+      if (ticket) this->context().gate().requireCurrent(*ticket);
+      if (in_work.areCancelled()) throw Cancelled("its processor was unloaded while it was being planned");
       throw;
     }
     flow_->complete(command.command_id, speed, &plan);
@@ -105,6 +117,8 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
   }
 
  private:
+  static constexpr unsigned kMaxDryRuns = 6;
+
   std::optional<MotionFlow> flow_;
 };
 

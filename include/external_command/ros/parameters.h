@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "external_command/core/error.h"
+#include "external_command/core/text.h"
 #include "external_command/core/vehicle.h"
 #include "external_command/map/map_reader.h"
 #include "external_command/routing/lane_way_tool.h"
@@ -13,7 +15,8 @@
 
 namespace external_command {
 
-/// Reads parameters of one namespace. A missing one leaves the default; one of the wrong type stops the start.
+/// Reads parameters of one namespace. A missing one leaves the default; one of the wrong type stops the start, and so
+/// does a ROS master that is gone: what it no longer tells is not what nobody set.
 class ParameterReader {
  public:
   explicit ParameterReader(const ros::NodeHandle& nh) : nh_(nh) {}
@@ -30,12 +33,30 @@ class ParameterReader {
   void readWithin(const std::string& key, double low, double high, double* value) const;
   void readWithin(const std::string& key, int low, int high, int* value) const;
 
+  /// Names of topics and services, relative ones as they are. An empty one means none, and is taken only where
+  /// `*value` is empty before.
+  /// @throws InvalidParameter  also for what is no name of ROS.
+  void readName(const std::string& key, std::string* value) const;
+  void readNames(const std::string& key, std::vector<std::string>* value) const;
+
   bool has(const std::string& key) const { return nh_.hasParam(key); }
   ParameterReader within(const std::string& name) const { return ParameterReader(ros::NodeHandle(nh_, name)); }
   std::string nameOf(const std::string& key) const { return nh_.resolveName(key); }
 
   /// The raw value; false where there is none.
-  bool raw(const std::string& key, XmlRpc::XmlRpcValue* value) const { return nh_.getParam(key, *value); }
+  /// @throws InternalError  the ROS master does not answer.
+  bool raw(const std::string& key, XmlRpc::XmlRpcValue* value) const;
+
+  /// Calls `params.validate()`.
+  /// @throws InvalidParameter  what that throws, with the namespace in the text.
+  template <class Params>
+  void validate(const Params& params) const {
+    try {
+      params.validate();
+    } catch (const InvalidParameter& error) {
+      throw InvalidParameter(text("parameters in ", nh_.getNamespace(), ": ", error.what()));
+    }
+  }
 
  private:
   ros::NodeHandle nh_;

@@ -67,21 +67,30 @@ class ProcessContext {
 
   /// One publisher per topic for all processors: several latched ones on a topic would each hand a new subscriber its
   /// own last message, and the newest command would not be the last to arrive.
+  /// @throws InternalError  the topic is published with another type in this process.
   template <class Message>
   ros::Publisher advertise(const std::string& topic, bool latch) {
+    const std::string type = ros::message_traits::datatype<Message>();
+    const std::string name = nh_.resolveName(topic);
     const std::lock_guard<std::mutex> lock(publishers_mutex_);
-    ros::Publisher& publisher = publishers_[nh_.resolveName(topic)];
-    if (!publisher) publisher = nh_.advertise<Message>(topic, kQueueSize, latch);
-    return publisher;
+    Shared& shared = publishers_[name];
+    if (!shared.publisher) shared = {nh_.advertise<Message>(topic, kQueueSize, latch), type};
+    requireAdvertised(shared.publisher && shared.type == type, name, type);
+    return shared.publisher;
   }
 
  private:
+  struct Shared {
+    ros::Publisher publisher;
+    std::string type;
+  };
+
   static constexpr int kQueueSize = 100;
 
   const ContextParams params_;
   ros::NodeHandle nh_;
   std::mutex publishers_mutex_;
-  std::map<std::string, ros::Publisher> publishers_;
+  std::map<std::string, Shared> publishers_;
   const std::shared_ptr<const Router> router_;
   const VehiclePose vehicle_pose_;
   CommandGate gate_;

@@ -13,6 +13,7 @@
 #include "external_command/CommandLogEntry.h"
 #include "external_command/ros/any_message.h"
 #include "external_command/ros/command_processor.h"
+#include "external_command/ros/plans_in_work.h"
 #include "external_command/ros/status.h"
 
 namespace external_command {
@@ -27,8 +28,8 @@ class CommandService : public CommandProcessor {
   /// @param threads  how many requests may run at once.
   CommandService(std::string service, unsigned threads);
 
-  /// Stops serving and waits for requests in work. Must be called by the destructor of the most derived class: a
-  /// request in work calls its virtual functions.
+  /// Stops serving, cancels the plans in work and waits for requests in work. Must be called by the destructor of the
+  /// most derived class: a request in work calls its virtual functions.
   void stopServing();
 
   /// Reads parameters and subscribes to the vehicle's reports.
@@ -42,6 +43,8 @@ class CommandService : public CommandProcessor {
 
   const std::string& serviceName() const { return service_name_; }
   DedicatedLane& lane() { return *lane_; }
+  PlansInWork& plansInWork() { return plans_in_work_; }
+  PlansInWork& dryRunsInWork() { return dry_runs_in_work_; }
 
   /// Called with the request's id (0 or below: none wished) and digest; `execute` is called with the id given to it,
   /// unless the request is a retry.
@@ -66,6 +69,7 @@ class CommandService : public CommandProcessor {
   ros::Publisher log_publisher_;
   std::vector<ros::Subscriber> report_subscribers_;
   ros::ServiceServer server_;
+  PlansInWork plans_in_work_, dry_runs_in_work_;
   std::unique_ptr<DedicatedLane> lane_;
 };
 

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "external_command/ros/checks.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "external_command/core/error.h"
+
+namespace external_command {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Pose poseAt(double x, double y) {
+  Pose pose;
+  pose.x = x;
+  pose.y = y;
+  return pose;
+}
+
+TEST(Checks, TakeCoordinatesOfAnyMap) {
+  EXPECT_NO_THROW(requireFinite(poseAt(0.0, 0.0), "end_pose"));
+  EXPECT_NO_THROW(requireFinite(poseAt(833978.0, -9999999.0), "end_pose"));
+}
+
+TEST(Checks, RefuseCoordinatesOfNoMapAndNameTheField) {
+  for (const double value : {kNan, kInfinity, -kInfinity, 1e308, -1e10}) {
+    try {
+      requireFinite(poseAt(0.0, value), "end_pose");
+      FAIL() << value << " was taken";
+    } catch (const InvalidRequest& error) {
+      EXPECT_NE(std::string(error.what()).find("end_pose.y"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(Checks, TakeARequestWithoutAStampOrWithARecentOne) {
+  ros::Time::init();
+  EXPECT_NO_THROW(requireFresh(ros::Time(), 2.0));
+  EXPECT_NO_THROW(requireFresh(ros::Time::now(), 2.0));
+}
+
+TEST(Checks, RefuseStampsHoweverFarFromNow) {
+  ros::Time::init();
+  const ros::Time last_of_all(std::numeric_limits<std::uint32_t>::max(), 0);
+  for (const ros::Time& stamp : {ros::Time(1), ros::Time::now() - ros::Duration(3.0), last_of_all}) {
+    EXPECT_THROW(requireFresh(stamp, 2.0), StaleRequest) << stamp;
+  }
+}
+
+}  // namespace
+}  // namespace external_command
