@@ -9,7 +9,9 @@ namespace external_command {
 
 namespace {
 
-constexpr double kEqual = 1e-9;  ///< plans with costs as near as that are the same
+constexpr double kTimeForTrying = 0.4;    ///< share of the budget after which no further plan is tried
+constexpr double kTimeForSettling = 0.7;  ///< the same for settling one
+constexpr double kEqual = 1e-9;           ///< plans with costs as near as that are the same
 
 /// How much is tried: the less, the longer one plan takes.
 struct Effort {
@@ -42,6 +44,7 @@ class Contest {
     tryPrices();
     Entry best;
     for (Entry& entry : entries_) {
+      if (!best.plan.steps.empty() && field_.timeUsed() > kTimeForSettling) break;
       Plan plan = settled(field_, std::move(entry.plan), effort_.rounds, &routes_);
       const double cost = costOf(field_, plan.length, plan.covered, goal_);
       if (best.plan.steps.empty() || cost < best.cost) best = {std::move(plan), cost};
@@ -59,12 +62,13 @@ class Contest {
   void tryPrices() {
     const auto& prices = effort_.prices;
     std::size_t last = effort_.first;
-    while (last < prices.size() && (tryPrice(prices[last]) || isFarShort()) && isShort()) ++last;
+    while (last < prices.size() && (tryPrice(prices[last]) || isFarShort()) && isShort() && isTimeLeft()) ++last;
     for (std::size_t i = effort_.first; i-- > 0 && last == effort_.first;) {
       if (!tryPrice(prices[i])) break;
     }
   }
 
+  bool isTimeLeft() const { return field_.timeUsed() < kTimeForTrying; }
   double bestShare() const { return entries_.front().plan.covered / goal_; }
   bool isShort() const { return bestShare() < field_.params().target_coverage; }
   bool isFarShort() const { return bestShare() < kLowCoverage; }
@@ -75,6 +79,7 @@ class Contest {
     bool improved = false;
     for (const Draft& draft : makeDrafts(field_, empty_, price, effort_.drafts)) {
       for (const double choosy : effort_.choosy) {
+        if (!entries_.empty() && field_.timeUsed() > kTimeForTrying) return false;
         improved = enter(planOf(field_, worksOf(field_, draft, price, choosy), price, &routes_)) || improved;
       }
     }

@@ -16,6 +16,7 @@ namespace {
 constexpr std::array<double, 11> kShifts = {0.0, 0.3, -0.3, 0.6, -0.6, 1.0, -1.0, 1.6, -1.6, 2.5, -2.5};
 constexpr double kLongest = 4.0;  ///< how much longer than the shortest a turn may be, in turning radii
 constexpr std::size_t kMostTried = 600;
+constexpr unsigned kMostSteps = 2500;  ///< of a search; a swath that is harder to get to is not worth it
 
 struct Candidate {
   double cost = 0.0;
@@ -43,7 +44,7 @@ unsigned gearChangesOf(const Curve& curve) {
 }  // namespace
 
 std::optional<Curve> Connector::connect(const Pose2d& from, const Pose2d& to) const {
-  field_.cancel().throwIfCancelled();
+  field_.poll();
   if (auto curve = shortTurn(from, to)) return curve;
   if (auto curve = shiftedTurn(from, to)) return curve;
   return search(from, to);
@@ -98,6 +99,7 @@ std::optional<Curve> Connector::search(const Pose2d& from, const Pose2d& to) con
   params.planner = "hybrid_astar";
   params.margin = field_.params().margin;
   params.time_budget = 0.5;
+  params.max_iterations = kMostSteps;
   params.improve_budget = 0.0;
   params.gear_change_cost = field_.params().gear_change_cost;
   params.spacing = 0.25;

@@ -19,24 +19,52 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double secondsSince(Clock::time_point began) { return std::chrono::duration<double>(Clock::now() - began).count(); }
-
 bool isSame(const Pose2d& a, const Pose2d& b) {
   constexpr double kRounding = 1e-6;
   return (a.position() - b.position()).norm() < kRounding && std::abs(angleBetween(a.heading, b.heading)) < kRounding;
 }
 
+/// The lines to be driven, and the ways to them as planned.
+struct Course {
+  std::vector<Curve> lines;
+  std::vector<std::optional<Curve>> links;  ///< to each line from the one before; none of an earlier run
+};
+
+Course courseOf(const Field& field, const CoverageProgress& progress) {
+  Course course;
+  for (const SwathLine& line : progress.lines) {
+    const Pose2d start{line.start.x - field.origin().x(), line.start.y - field.origin().y(), line.start.heading};
+    course.lines.push_back({start, line.arcs});
+  }
+  if (!course.lines.empty()) return course;
+  Plan plan = bestPlan(field);
+  for (const Step& step : plan.steps) course.lines.push_back(plan.works[step.work].curveOf(step.way));
+  course.links = std::move(plan.links);
+  if (!course.lines.empty()) return course;
+  throw NoPath("no swath fits into the area; is it too narrow for the vehicle to turn in?");
+}
+
+std::vector<SwathLine> linesOf(const Field& field, const Course& course) {
+  std::vector<SwathLine> lines;
+  for (const Curve& line : course.lines) {
+    const Pose2d start{line.start.x + field.origin().x(), line.start.y + field.origin().y(), line.start.heading};
+    lines.push_back({start, line.arcs});
+  }
+  return lines;
+}
+
 /// Drives the steps of a plan one after the other and keeps what the path and the statistics need.
 class PathBuilder {
  public:
-  PathBuilder(const Field& field, const Plan& plan, const std::optional<Pose2d>& start, CoverageResult* result)
-      : field_(field), plan_(plan), at_(start), swept_(field.makeGrid()), result_(result) {}
+  PathBuilder(const Field& field, const Course& course, CoverageResult* result)
+      : field_(field), course_(course), at_(field.start()), swept_(field.makeGrid()), result_(result) {}
 
   /// Swath `index` was swept by an earlier run.
-  void count(std::size_t index) { swept_.sweep(wayOf(index), field_.width()); }
+  void count(std::size_t index) { swept_.sweep(course_.lines[index], field_.width()); }
 
   void drive(std::size_t index) {
-    const Curve way = wayOf(index);
+    field_.poll();
+    const Curve& way = course_.lines[index];
     if (!field_.isBarelyFree(way)) {
       result_->warnings.push_back(text("swath ", index, " is left out: the footprint would not stay inside"));
       return;
@@ -72,21 +100,22 @@ class PathBuilder {
   }
 
  private:
-  Curve wayOf(std::size_t index) const {
-    const Step& step = plan_.steps[index];
-    return plan_.works[step.work].curveOf(step.way);
-  }
-
   bool transfer(const Pose2d& to, std::size_t index) {
-    const std::optional<Curve>& planned = plan_.links[index];
-    const bool is_as_planned = planned && isSame(planned->start, *at_);
-    const auto link = is_as_planned ? planned : Connector(field_).connect(*at_, to);
+    const std::optional<Curve> link = wayTo(to, index);
     if (link && field_.isBarelyFree(*link)) {
       append(*link, false);
       return true;
     }
     result_->warnings.push_back(text("swath ", index, " is left out: no way leads there from ", at(*at_)));
     return false;
+  }
+
+  /// As planned, if the vehicle is where the plan takes it to be.
+  std::optional<Curve> wayTo(const Pose2d& to, std::size_t index) const {
+    if (index < course_.links.size() && course_.links[index] && isSame(course_.links[index]->start, *at_)) {
+      return course_.links[index];
+    }
+    return Connector(field_).connect(*at_, to);
   }
 
   void append(const Curve& curve, bool tool_on) {
@@ -111,24 +140,33 @@ class PathBuilder {
   }
 
   const Field& field_;
-  const Plan& plan_;
+  const Course& course_;
   std::optional<Pose2d> at_;
   CoverageGrid swept_;
   CoverageResult* result_;
 };
 
-void requireKnownSwaths(const CoverageProgress& progress, std::size_t total) {
-  const auto require = [&](std::size_t index, const char* name) {
-    if (index < total) return;
-    throw InvalidRequest(text(name, " ", index, " is not in the plan; its swaths are 0 to ", total - 1));
+/// What is still to be driven: the lines in their order, those that were skipped at the end.
+std::vector<std::size_t> todoOf(const CoverageProgress& progress, std::size_t total) {
+  enum class State { kTodo, kDone, kSkipped };
+  std::vector<State> states(total, State::kTodo);
+  const auto mark = [&](const std::vector<std::size_t>& indices, State state, const char* name) {
+    for (const std::size_t index : indices) {
+      if (index >= total) {
+        throw InvalidRequest(text(name, " swath ", index, " is not in the plan; its swaths are 0 to ", total - 1));
+      }
+      states[index] = state;
+    }
   };
-  require(progress.first_swath, "first swath");
-  for (const std::size_t index : progress.skipped) require(index, "skipped swath");
-}
-
-std::optional<Pose2d> localPose(const std::optional<Pose2d>& pose, const Point2d& origin) {
-  if (!pose) return std::nullopt;
-  return Pose2d{pose->x - origin.x(), pose->y - origin.y(), pose->heading};
+  mark(progress.done, State::kDone, "done");
+  mark(progress.skipped, State::kSkipped, "skipped");
+  std::vector<std::size_t> todo;
+  for (const State wanted : {State::kTodo, State::kSkipped}) {
+    for (std::size_t i = 0; i < total; ++i) {
+      if (states[i] == wanted) todo.push_back(i);
+    }
+  }
+  return todo;
 }
 
 }  // namespace
@@ -142,40 +180,22 @@ CoveragePlanner::CoveragePlanner(const VehicleParams& vehicle, const CoveragePar
 CoverageResult CoveragePlanner::plan(const CoverageArea& area, const std::optional<Pose2d>& start,
                                      const CoverageProgress& progress, const CancelToken& cancel) const {
   const auto began = Clock::now();
-  const Field field(vehicle_, params_, area, progress.planned_from ? progress.planned_from : start, cancel);
-  const Plan plan = bestPlan(field);
-  const std::size_t swaths = plan.steps.size();
-  if (swaths == 0) {
-    throw NoPath("no swath fits into the area; is it too narrow for the vehicle to turn in?");
-  }
-  requireKnownSwaths(progress, swaths);
-
+  const Field field(vehicle_, params_, area, start, cancel);
+  const Course course = courseOf(field, progress);
+  const std::vector<std::size_t> todo = todoOf(progress, course.lines.size());
   CoverageResult result;
-  result.total_swaths = swaths;
-  PathBuilder builder(field, plan, localPose(start, field.origin()), &result);
-  const auto is_skipped = [&](std::size_t index) {
-    return std::find(progress.skipped.begin(), progress.skipped.end(), index) != progress.skipped.end();
-  };
-  for (std::size_t i = 0; i < swaths; ++i) {
-    if (i < progress.first_swath && !is_skipped(i)) builder.count(i);
+  result.lines = linesOf(field, course);
+  PathBuilder builder(field, course, &result);
+  for (std::size_t i = 0; i < course.lines.size(); ++i) {
+    if (std::find(todo.begin(), todo.end(), i) == todo.end()) builder.count(i);
   }
-  const auto drive = [&](std::size_t index) {
-    cancel.throwIfCancelled();
-    if (secondsSince(began) > params_.time_budget) {
-      throw PlanningTimeout(text("the area was not planned within ", params_.time_budget, " s (time_budget)"));
-    }
-    builder.drive(index);
-  };
-  for (std::size_t i = progress.first_swath; i < swaths; ++i) {
-    if (!is_skipped(i)) drive(i);
-  }
-  for (const std::size_t index : progress.skipped) drive(index);
+  for (const std::size_t index : todo) builder.drive(index);
   if (result.swaths.empty()) {
     throw NoPath(text("no swath can be reached", start ? text(" from ", at(*start)) : std::string(), "; ",
-                      result.warnings.empty() ? "" : result.warnings.front()));
+                      result.warnings.empty() ? "all are done" : result.warnings.front()));
   }
   builder.finish();
-  result.planning_time = secondsSince(began);
+  result.planning_time = std::chrono::duration<double>(Clock::now() - began).count();
   return result;
 }
 

@@ -39,7 +39,7 @@ std::vector<Draft> makeDrafts(const Field& field, const CoverageGrid& empty, dou
   Draft draft{0, 0.0, {}, empty, {}};
   double length = 0.0;
   for (;; ++draft.laps) {
-    field.cancel().throwIfCancelled();
+    field.poll();
     if (draft.laps >= least) {
       draft.headings = rankHeadings(field, prices, draft.grid, headings);
       draft.cost = length - price * draft.grid.area(kGoal | kSwept, 0) - draft.headings.front().worth;

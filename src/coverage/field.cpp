@@ -6,6 +6,7 @@
 
 #include "external_command/core/error.h"
 #include "external_command/core/text.h"
+#include "grid_obstacles.h"
 
 namespace external_command {
 
@@ -27,6 +28,11 @@ Region regionOf(const CoverageArea& area, const Point2d& origin) {
   parts.drivable = moved(area.outer, origin, "the area");
   for (std::size_t i = 0; i < area.holes.size(); ++i) {
     parts.non_drivable.push_back(moved(area.holes[i], origin, text("hole ", i)));
+  }
+  if (area.grid) {
+    for (const Polygon& obstacle : gridObstacles(*area.grid, area.outer)) {
+      parts.non_drivable.push_back(moved(obstacle, origin, "an obstacle of the grid"));
+    }
   }
   return Region(parts);
 }
@@ -64,19 +70,35 @@ Field::Field(const VehicleParams& vehicle, const CoverageParams& params, const C
       bare_checker_(vehicle, 0.0, region_) {
   if (start) start_ = Pose2d{start->x - origin_.x(), start->y - origin_.y(), start->heading};
   setShapes(area);
-  requireFreeStart();
   setGoal();
+  requireFreeStart();
+}
+
+void Field::poll() const {
+  cancel_.throwIfCancelled();
+  if (timeUsed() < 1.0) return;
+  throw PlanningTimeout(text("the area was not planned within ", params_.time_budget,
+                             " s (time_budget); give it more time, or divide the area"));
+}
+
+double Field::timeUsed() const {
+  const std::chrono::duration<double> used = std::chrono::steady_clock::now() - began_;
+  return used.count() / params_.time_budget;
 }
 
 void Field::setShapes(const CoverageArea& area) {
-  free_.push_back(shapeOf(region_.drivable()->points()));
-  for (std::size_t i = 0; i < region_.nonDrivable().size(); ++i) {
-    const shapes::Shapes hole = only(shapeOf(region_.nonDrivable()[i].points()));
-    free_ = difference(free_, hole);
-    if (!free_.empty()) continue;
-    throw InvalidRequest(text("hole ", i, " (", region_.nonDrivable()[i].area(), " m^2) leaves nothing of the area (",
-                              area.outer.area(), " m^2)", i > 0 ? " after those before it" : ""));
+  const shapes::Shapes whole = only(shapeOf(region_.drivable()->points()));
+  std::vector<shapes::Shapes> holes;
+  for (const Polygon& hole : region_.nonDrivable()) holes.push_back(only(shapeOf(hole.points())));
+  free_ = difference(whole, unionOf(holes));
+  if (!free_.empty()) return;
+  for (std::size_t i = 0; i < area.holes.size(); ++i) {
+    if (!difference(whole, holes[i]).empty()) continue;
+    throw InvalidRequest(
+        text("hole ", i, " (", area.holes[i].area(), " m^2) leaves nothing of the area (", area.outer.area(), " m^2)"));
   }
+  throw InvalidRequest(text("the ", holes.size(), " holes and obstacles together leave nothing of the area (",
+                            area.outer.area(), " m^2)"));
 }
 
 void Field::requireFreeStart() const {

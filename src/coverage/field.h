@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <vector>
 
@@ -24,6 +25,10 @@ class Field {
   const VehicleParams& vehicle() const { return vehicle_; }
   const CoverageParams& params() const { return params_; }
   const CancelToken& cancel() const { return cancel_; }
+  /// To be called in every loop. @throws Cancelled, PlanningTimeout
+  void poll() const;
+  double timeUsed() const;  ///< as share of the budget
+
   const Point2d& origin() const { return origin_; }
   const std::optional<Pose2d>& start() const { return start_; }
 
@@ -57,6 +62,7 @@ class Field {
   VehicleParams vehicle_;
   CoverageParams params_;
   CancelToken cancel_;
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   Point2d origin_;
   std::optional<Pose2d> start_;
   double reach_;

@@ -92,6 +92,37 @@ Shapes only(const Shape& shape) {
 
 double areaOf(const Shapes& of) { return bg::area(of); }
 
+double areaOf(const Ring& ring) { return bg::area(ring); }
+
+Ring hullOf(const Shape& shape) {
+  Ring hull;
+  bg::convex_hull(shape, hull);
+  return hull;
+}
+
+Ring simplified(const Ring& ring, double distance) {
+  Ring result;
+  bg::simplify(ring, result, distance);
+  return result.size() > 3 ? result : ring;
+}
+
+/// In pairs, then those in pairs, so that most unions are of small shapes.
+Shapes unionOf(std::vector<Shapes> all) {
+  if (all.empty()) return {};
+  while (all.size() > 1) {
+    std::vector<Shapes> fewer((all.size() + 1) / 2);
+    for (std::size_t i = 0; i < fewer.size(); ++i) {
+      if (2 * i + 1 < all.size()) {
+        bg::union_(all[2 * i], all[2 * i + 1], fewer[i]);
+      } else {
+        fewer[i] = std::move(all[2 * i]);
+      }
+    }
+    all = std::move(fewer);
+  }
+  return std::move(all.front());
+}
+
 double perimeterOf(const Shape& shape) { return bg::perimeter(shape.outer()); }
 
 Shapes difference(const Shapes& from, const Shapes& what) {

@@ -36,6 +36,16 @@ double areaOf(const shapes::Shapes& shapes);  ///< [m^2]
 
 double perimeterOf(const shapes::Shape& shape);  ///< of its outer ring [m]
 
+double areaOf(const shapes::Ring& ring);  ///< [m^2], positive for a border
+
+/// The convex hull, as a border.
+shapes::Ring hullOf(const shapes::Shape& shape);
+
+/// The ring without the points that lie within `distance` [m] of the line between their neighbours.
+shapes::Ring simplified(const shapes::Ring& ring, double distance);
+
+shapes::Shapes unionOf(std::vector<shapes::Shapes> all);
+
 shapes::Shapes difference(const shapes::Shapes& from, const shapes::Shapes& what);
 shapes::Shapes intersection(const shapes::Shapes& a, const shapes::Shapes& b);
 

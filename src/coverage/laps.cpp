@@ -106,7 +106,7 @@ class LapBuilder {
     CornerSearch search(field_, &grid_, price_);
     ways_.resize(sides_.size());
     for (std::size_t i = 0; i < sides_.size(); ++i) {
-      field_.cancel().throwIfCancelled();
+      field_.poll();
       const std::size_t next = (i + 1) % sides_.size();
       Side before = sides_[i];
       const double entered = i > 0 && ways_[i - 1] && !ways_[i - 1]->fills ? ways_[i - 1]->enter : 0.0;

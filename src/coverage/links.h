@@ -25,6 +25,7 @@ class Links {
   /// `works` may grow at its end.
   Links(const Field& field, const std::vector<Work>& works, Routes* routes);
 
+  const Field& field() const { return field_; }
   const Pose2d& startOf(const Step& step) const { return works_[step.work].startOf(step.way); }
   const Pose2d& endOf(const Step& step) const { return works_[step.work].endOf(step.way); }
 

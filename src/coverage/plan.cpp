@@ -12,8 +12,9 @@ namespace external_command {
 namespace {
 
 constexpr double kDear = 12.0;  ///< price of a square metre, times the width, for which the last swaths are looked for
-constexpr int kRounds = 4;      ///< of swaths for what is left
-constexpr double kCheapTurn = 0.3;  ///< price of a turn in their search, in radii: the tour knows the real one
+constexpr double kTimeForChanges = 0.7;  ///< share of the budget after which a plan is settled as it is
+constexpr int kRounds = 4;               ///< of swaths for what is left
+constexpr double kCheapTurn = 0.3;       ///< price of a turn in their search, in radii: the tour knows the real one
 
 class Planner {
  public:
@@ -37,6 +38,7 @@ class Planner {
     is_settled_ = true;
     count();
     for (int round = 0; round < rounds && settleLinks(); ++round) {
+      if (field_.timeUsed() > kTimeForChanges) break;
       improve();
       chooseWays();
       if (round == 1) putIn();
@@ -145,6 +147,7 @@ class Planner {
     for (bool changed = true; changed;) {
       changed = false;
       for (long i = 0; at(i) != nullptr; ++i) {
+        field_.poll();
         const Step step = *at(i);
         const Curve way = wayOf(step);
         const double saved = way.length() + links_.detour(at(i - 1), step, step, at(i + 1));
@@ -161,7 +164,7 @@ class Planner {
                              kCheapTurn * field_.radius()};
     bool changed = true;
     for (int round = 0; round < kRounds && changed; ++round) {
-      field_.cancel().throwIfCancelled();
+      field_.poll();
       changed = false;
       CoverageGrid grid = tally_.grid();
       const auto headings = rankHeadings(field_, prices, grid, swathHeadings(field_));

@@ -29,6 +29,7 @@ class SwathSearch {
     const Remains coarse(remains_, std::max(0.6 * bin, std::sqrt(remains_.area / kCoarseSpots)));
     std::vector<SwathHeading> ranked;
     for (const double heading : headings) {
+      field_.poll();
       const Profile profile(coarse, heading, bin);
       double worth = 0.0;
       for (int offset = 0; offset < kCoarseBins; ++offset) {
@@ -44,7 +45,7 @@ class SwathSearch {
   SwathPlan plan(const std::vector<SwathHeading>& headings) const {
     Layout best;
     for (std::size_t i = 0; i < std::min(kFinalists, headings.size()); ++i) {
-      field_.cancel().throwIfCancelled();
+      field_.poll();
       const Profile profile(remains_, headings[i].heading, field_.width() / kBins);
       for (int offset = 0; offset < kBins; ++offset) {
         const Layout layout{headings[i].heading, offset, worthOf(profile, kBins, offset)};

@@ -21,6 +21,7 @@ Step turned(const Step& step) { return {step.work, 1 - step.way}; }
 void Tour::build(std::vector<std::size_t> todo) {
   steps_.clear();
   while (!todo.empty()) {
+    links_.field().poll();
     double best = kInfinity;
     std::size_t pick = 0;
     Step next;
@@ -50,6 +51,7 @@ bool Tour::turnParts() {
   bool improved = false;
   const long n = static_cast<long>(steps_.size());
   for (long i = 0; i < n; ++i) {
+    links_.field().poll();
     for (long j = i; j < n && canTurn(*at(j)); ++j) {
       const Step first = turned(*at(j)), last = turned(*at(i));
       const double before = links_.price(at(i - 1), at(i)) + links_.price(at(j), at(j + 1));
@@ -75,6 +77,7 @@ bool Tour::moveParts() {
 
 /// Moves `count` pieces from `begin` on to another place, turned round or not, where that is shorter.
 bool Tour::movePart(long begin, long count) {
+  links_.field().poll();
   const auto first = steps_.begin() + begin;
   std::array<std::vector<Step>, 2> pieces = {std::vector<Step>(first, first + count), {}};
   const bool turns = std::all_of(first, first + count, [&](const Step& step) { return canTurn(step); });
@@ -99,6 +102,7 @@ bool Tour::movePart(long begin, long count) {
 
 Insertion cheapestInsertion(Links* links, const std::vector<Work>& works, std::size_t work,
                             const std::vector<Step>& steps) {
+  links->field().poll();
   Insertion best{kInfinity, 0, {}};
   for (long j = -1; j < static_cast<long>(steps.size()); ++j) {
     const Step *before = stepAt(steps, j), *after = stepAt(steps, j + 1);

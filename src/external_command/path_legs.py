@@ -15,6 +15,10 @@ class PathError(ValueError):
     """A path that cannot be followed; the text says why."""
 
 
+class PathWithoutLength(PathError):
+    """All of its points are the same."""
+
+
 def split_legs(points):
     """[(points, gear)] of a path, cut at its gear changes; the cusp belongs to both sides.
 
@@ -39,7 +43,7 @@ def split_legs(points):
     if length > MAX_LENGTH:
         raise PathError("the path is %g m long; the limit is %g m" % (length, MAX_LENGTH))
     if not legs:
-        raise PathError("the path has no length: all of its %d points are the same" % len(points))
+        raise PathWithoutLength("the path has no length: all of its %d points are the same" % len(points))
     for part, gear in legs:
         _check_headings(part, gear)
     return legs

@@ -11,8 +11,9 @@ import re
 from external_command import bicycle
 from external_command.any_message import WrongType, unpack
 from external_command.msg import CommandStatus, PlanningCommand, PlanningPad, SpeedCommand
-from external_command.path_legs import FORWARD, PathError
+from external_command.path_legs import FORWARD, PathError, PathWithoutLength
 from external_command.path_tracker import PathTracker
+from external_command.plane import distance, wrap_angle
 
 # What a pad action shows as the planner's scenario. The first two last until RESUME_CRUISE or a new motion command, the
 # others for PlannerSettings.acknowledge_time: the simulator knows no lanes to change to and no missions.
@@ -97,12 +98,19 @@ class SimulatedPlanner:
             return
         try:
             task = Task(command, self._tracker_for(command))
+        except PathWithoutLength as error:
+            if not self._stands_at(command.path.points[-1]):
+                self._report(command.command_id, CommandStatus.ERROR, str(error), CommandStatus.INVALID_REQUEST)
+                return
+            task = None
         except PathError as error:
             self._report(command.command_id, CommandStatus.ERROR, str(error), CommandStatus.INVALID_REQUEST)
             return
         self._task = task
         self._hold = None
         self._hold_reported = True
+        if task is None:
+            self._report(command.command_id, CommandStatus.FINISHED, "is there already")
         self.report_progress("")
 
     def refuse(self, command_id, reason):
@@ -178,6 +186,11 @@ class SimulatedPlanner:
             raise PathError("the path begins %.1f m from the vehicle; the limit is %.1f m (~max_start_distance)" %
                             (away, self._settings.max_start_distance))
         return tracker
+
+    def _stands_at(self, point):
+        return (self.state.speed == 0.0 and
+                distance((self.state.x, self.state.y), (point.x, point.y)) <= self._settings.end_tolerance and
+                abs(wrap_angle(self.state.heading - point.heading)) <= self._settings.end_heading_tolerance)
 
     def _accept_custom(self, command):
         try:

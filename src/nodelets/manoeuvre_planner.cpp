@@ -57,7 +57,7 @@ FreeSpaceParams readFreeSpaceParams(const ParameterReader& reader) {
   reader.read("path_spacing", &params.spacing);
   reader.read("continuous_curvature", &params.continuous_curvature);
   reader.read("manoeuvre_speed", &params.manoeuvre_speed);
-  params.validate();
+  reader.validate(params);
   return params;
 }
 
@@ -65,7 +65,7 @@ ManoeuvrePlanner::ManoeuvrePlanner(ros::NodeHandle nh, const ParameterReader& re
     : context_(context),
       params_(readFreeSpaceParams(reader.within("free_space"))),
       latest_grid_(std::make_shared<LatestGrid>()) {
-  reader.read("obstacle_grid_name", &grid_topic_);
+  reader.readName("obstacle_grid_name", &grid_topic_);
   reader.readWithin("max_grid_age", 0.01, 3600.0, &max_grid_age_);
   if (grid_topic_.empty()) return;
   nh.setCallbackQueue(context.housekeeping().queue());
@@ -79,8 +79,8 @@ ManoeuvrePlanner::ManoeuvrePlanner(ros::NodeHandle nh, const ParameterReader& re
 
 ManoeuvrePlanner::~ManoeuvrePlanner() = default;
 
-Region ManoeuvrePlanner::regionOf(Region::Parts parts) const {
-  if (grid_topic_.empty()) return Region(std::move(parts));
+std::optional<OccupancyGrid> ManoeuvrePlanner::grid() const {
+  if (grid_topic_.empty()) return std::nullopt;
   nav_msgs::OccupancyGrid::ConstPtr message;
   {
     const std::lock_guard<std::mutex> lock(latest_grid_->mutex);
@@ -94,7 +94,11 @@ Region ManoeuvrePlanner::regionOf(Region::Parts parts) const {
     throw NotReady(text("the obstacle grid on ", grid_topic_, " is ", age, " s old; the limit is ", max_grid_age_,
                         " s (~max_grid_age)"));
   }
-  parts.grid = toGrid(*message, context_.vehiclePose().ofFrame(message->header.frame_id));
+  return toGrid(*message, context_.vehiclePose().ofFrame(message->header.frame_id));
+}
+
+Region ManoeuvrePlanner::regionOf(Region::Parts parts) const {
+  parts.grid = grid();
   return Region(std::move(parts));
 }
 

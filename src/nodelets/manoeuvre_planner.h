@@ -4,6 +4,7 @@
 #include <ros/node_handle.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,10 @@ class ManoeuvrePlanner {
   ~ManoeuvrePlanner();
 
   const FreeSpaceParams& params() const { return params_; }
+
+  /// The live obstacle grid; nullopt where none is configured.
+  /// @throws NotReady  it has not come, or is too old.
+  std::optional<OccupancyGrid> grid() const;
 
   /// `parts` with the live obstacle grid added, where one is configured.
   /// @throws NotReady  the grid has not come, or is too old.

@@ -14,13 +14,16 @@ namespace {
 
 constexpr double kTrackingPeriod = 0.2;  // [s]
 
+bool contains(const std::vector<std::size_t>& indices, std::size_t index) {
+  return std::find(indices.begin(), indices.end(), index) != indices.end();
+}
+
 }  // namespace
 
 CoverageParams readCoverageParams(const ParameterReader& reader) {
   CoverageParams params;
   std::string objective = "shortest";
   double heading = std::nan("");
-  int seed = static_cast<int>(params.seed);
   reader.read("swath_width", &params.swath_width);
   reader.read("overlap", &params.overlap);
   reader.read("margin", &params.margin);
@@ -32,15 +35,13 @@ CoverageParams readCoverageParams(const ParameterReader& reader) {
   reader.read("gear_change_cost", &params.gear_change_cost);
   reader.read("path_spacing", &params.spacing);
   reader.read("time_budget", &params.time_budget);
-  reader.readWithin("seed", 0, 1000000000, &seed);
   if (reader.has("swath_heading")) params.swath_heading = heading;
   if (objective != "shortest" && objective != "fewest_turns") {
     throw InvalidParameter(
         text("parameter ", reader.nameOf("objective"), " is '", objective, "'; give shortest or fewest_turns"));
   }
   params.objective = objective == "shortest" ? CoverageObjective::kShortest : CoverageObjective::kFewestTurns;
-  params.seed = static_cast<unsigned>(seed);
-  params.validate();
+  reader.validate(params);
   return params;
 }
 
@@ -84,11 +85,23 @@ void ZoneCoverCommandProcessor::check(const ZoneCoverCommand& command) const {
   }
   if (by_polygon) checkPolygons({command.drivable_roi}, "drivable_roi");
   checkPolygons(command.non_drivable_roi, "non_drivable_roi");
-  requireNotNegative(command.swath_width, "swath_width");
+  paramsFor(command);
   requireNotNegative(command.target_speed, "target_speed");
   if (!command.skip_swath.empty() && !command.resume) {
     throw InvalidRequest("skip_swath needs resume: swaths are known of a zone that was begun");
   }
+}
+
+CoverageParams ZoneCoverCommandProcessor::paramsFor(const ZoneCoverCommand& command) const {
+  CoverageParams params = coverage_params_;
+  if (command.swath_width == 0.0) return params;
+  params.swath_width = command.swath_width;
+  try {
+    params.validate();
+  } catch (const InvalidParameter& error) {
+    throw InvalidRequest(text("swath_width ", command.swath_width, " does not go with the parameters: ", error.what()));
+  }
+  return params;
 }
 
 const Area& ZoneCoverCommandProcessor::areaOf(const ZoneCoverCommand& command) const {
@@ -106,6 +119,7 @@ CoverageArea ZoneCoverCommandProcessor::zoneOf(const ZoneCoverCommand& command) 
   for (std::size_t i = 0; i < command.non_drivable_roi.size(); ++i) {
     zone.holes.push_back(toPolygon(command.non_drivable_roi[i], frame, text("non_drivable_roi[", i, "]")));
   }
+  zone.grid = planner_->grid();
   return zone;
 }
 
@@ -138,19 +152,23 @@ void ZoneCoverCommandProcessor::enterZone(const ZoneCoverCommand& command, const
   leaveRouteFor(entries, planner_->regionOf(std::move(parts)), *planner_, cancel, plan);
 }
 
-ZoneProgress ZoneCoverCommandProcessor::progressOf(const ZoneCoverCommand& command, const ZonePlanFile& file,
-                                                   const Pose2d& start) const {
-  ZoneProgress fresh;
-  fresh.planned_from = start;
-  if (!command.resume) return fresh;
-  const auto kept = file.read();
+CoverageProgress ZoneCoverCommandProcessor::progressOf(const ZoneCoverCommand& command, const ZonePlanFile& file) {
+  if (!command.resume) return {};
+  std::optional<CoverageProgress> kept = file.read();
   if (!kept) {
     throw InvalidRequest(
         text("resume: no earlier run of this zone is known (", file.path(), "); send the command without resume"));
   }
-  if (kept->done_swaths == kept->total_swaths) {
-    throw InvalidRequest(text("resume: the zone is swept, all ", kept->total_swaths,
+  if (kept->done.size() == kept->lines.size()) {
+    throw InvalidRequest(text("resume: the zone is swept, all ", kept->lines.size(),
                               " swaths of it; send the command without resume to sweep it again"));
+  }
+  for (const std::size_t index : command.skip_swath) {
+    if (index >= kept->lines.size()) {
+      throw InvalidRequest(
+          text("skip_swath ", index, " is not in the plan; its swaths are 0 to ", kept->lines.size() - 1));
+    }
+    if (!contains(kept->done, index) && !contains(kept->skipped, index)) kept->skipped.push_back(index);
   }
   return *kept;
 }
@@ -170,17 +188,15 @@ void ZoneCoverCommandProcessor::appendCoverage(const CoverageResult& coverage, M
 void ZoneCoverCommandProcessor::processSpecialCommand(const ZoneCoverCommand& command, const CancelToken& cancel,
                                                       MotionPlan* plan) {
   const CoverageArea zone = zoneOf(command);
-  CoverageParams params = coverage_params_;
-  if (command.swath_width > 0.0) params.swath_width = command.swath_width;
+  const CoverageParams params = paramsFor(command);
   const CoveragePlanner planner(context().params().vehicle, params);
   if (!plan->path.empty()) enterZone(command, zone, cancel, plan);
   const Pose2d start = plan->path.empty() ? givenStart(command) : plan->path.back().pose();
 
+  track();  // so that the file tells of an earlier run's last moments too
   ZonePlanFile file(progress_folder_, zoneKey(zone, params, context().params().vehicle));
-  ZoneProgress progress = progressOf(command, file, start);
-  const CoverageProgress done{
-      progress.done_swaths, {command.skip_swath.begin(), command.skip_swath.end()}, progress.planned_from};
-  CoverageResult coverage = planner.plan(zone, start, done, cancel);
+  CoverageProgress progress = progressOf(command, file);
+  CoverageResult coverage = planner.plan(zone, start, progress, cancel);
   const std::size_t offset = plan->path.empty() ? 0 : plan->path.size() - 1;  // join() shares the point between both
   appendCoverage(coverage, plan);
   plan->scene.start = plan->path.front().pose();
@@ -197,7 +213,7 @@ void ZoneCoverCommandProcessor::processSpecialCommand(const ZoneCoverCommand& co
     swath.last += offset;
     todo += swath.covered_area;
   }
-  progress.total_swaths = coverage.total_swaths;
+  progress.lines = std::move(coverage.lines);
   file.write(progress);
   const std::lock_guard<std::mutex> lock(sweep_mutex_);
   sweep_.emplace(Sweep{command.command_id, ZoneTracker(plan->path, coverage.swaths), file, progress,
@@ -209,7 +225,7 @@ void ZoneCoverCommandProcessor::track() {
   if (!sweep_ || context().gate().lastSent() != sweep_->command_id) return;
   const CommandStatus status = context().registry().find(sweep_->command_id);
   try {
-    if (status.status == CommandStatus::FINISHED) keepDone(sweep_->progress.total_swaths);
+    if (status.status == CommandStatus::FINISHED) keepDone(sweep_->tracker.swaths().size());
     if (status.status == CommandStatus::RUNNING) followVehicle();
   } catch (const Error& error) {
     ROS_WARN_STREAM_THROTTLE(10.0, getName() << ": the progress is not followed: " << error.what());
@@ -220,19 +236,27 @@ void ZoneCoverCommandProcessor::track() {
 void ZoneCoverCommandProcessor::followVehicle() {
   ZoneTracker& tracker = sweep_->tracker;
   tracker.update(context().vehiclePose().get());
-  if (tracker.current() > 0) keepDone(tracker.swaths()[tracker.current() - 1].index + 1);
+  keepDone(tracker.current());
   const double covered = sweep_->covered_before + tracker.coveredArea();
-  const std::size_t total = sweep_->progress.total_swaths;
+  const std::size_t total = sweep_->progress.lines.size();
   context().registry().update(makeStatus(
       sweep_->command_id, CommandStatus::RUNNING, ErrorCode::kOk,
-      text("swath ", std::min(sweep_->progress.done_swaths + 1, total), " of ", total, ", ",
+      text("swath ", std::min(sweep_->progress.done.size() + 1, total), " of ", total, ", ",
            static_cast<int>(100.0 * std::min(covered / std::max(sweep_->goal_area, 1e-9), 1.0)), " % covered")));
 }
 
-void ZoneCoverCommandProcessor::keepDone(std::size_t done_swaths) {
-  if (done_swaths <= sweep_->progress.done_swaths) return;
-  sweep_->progress.done_swaths = done_swaths;
-  sweep_->file.write(sweep_->progress);
+/// The first `count` swaths of the path are swept.
+void ZoneCoverCommandProcessor::keepDone(std::size_t count) {
+  CoverageProgress& progress = sweep_->progress;
+  const std::size_t before = progress.done.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t index = sweep_->tracker.swaths()[i].index;
+    if (contains(progress.done, index)) continue;
+    progress.done.push_back(index);
+    progress.skipped.erase(std::remove(progress.skipped.begin(), progress.skipped.end(), index),
+                           progress.skipped.end());
+  }
+  if (progress.done.size() > before) sweep_->file.write(progress);
 }
 
 }  // namespace external_command

@@ -24,7 +24,7 @@ class ZoneCoverCommandProcessor : public MotionCommandProcessor<ZoneCover> {
     std::int64_t command_id;
     ZoneTracker tracker;
     ZonePlanFile file;
-    ZoneProgress progress;
+    CoverageProgress progress;
     double covered_before;  ///< by earlier runs [m^2]
     double goal_area;       ///< to be covered in all [m^2]
   };
@@ -35,17 +35,19 @@ class ZoneCoverCommandProcessor : public MotionCommandProcessor<ZoneCover> {
   std::optional<RoutingTask> convert(const ZoneCoverCommand& command) override;
   void processSpecialCommand(const ZoneCoverCommand& command, const CancelToken& cancel, MotionPlan* plan) override;
 
+  /// With the command's own swath width, where it has one. @throws InvalidRequest
+  CoverageParams paramsFor(const ZoneCoverCommand& command) const;
   const Area& areaOf(const ZoneCoverCommand& command) const;
   CoverageArea zoneOf(const ZoneCoverCommand& command) const;
   Pose2d givenStart(const ZoneCoverCommand& command) const;
   void enterZone(const ZoneCoverCommand& command, const CoverageArea& zone, const CancelToken& cancel,
                  MotionPlan* plan) const;
-  ZoneProgress progressOf(const ZoneCoverCommand& command, const ZonePlanFile& file, const Pose2d& start) const;
+  static CoverageProgress progressOf(const ZoneCoverCommand& command, const ZonePlanFile& file);
   void appendCoverage(const CoverageResult& coverage, MotionPlan* plan) const;
-  // Called by the timer; the latter two with the mutex held.
+  // Called by the timer and before a plan; the latter two with the mutex held.
   void track();
   void followVehicle();
-  void keepDone(std::size_t done_swaths);
+  void keepDone(std::size_t count);
 
   std::optional<ManoeuvrePlanner> planner_;
   CoverageParams coverage_params_;

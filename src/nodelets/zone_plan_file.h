@@ -9,25 +9,19 @@
 
 namespace external_command {
 
-/// How far the sweeping of a zone has come, kept in a small file so that a restarted node can go on.
-struct ZoneProgress {
-  Pose2d planned_from;          ///< the start of the first run, on which the order of the swaths depends
-  std::size_t done_swaths = 0;  ///< swaths 0 ... done_swaths - 1 are swept
-  std::size_t total_swaths = 0;
-};
-
-/// One file per zone in a folder; a zone is what was asked to be swept, by `zoneKey`.
+/// The plan for a zone and how far it has come, kept in a small text file so that a restarted node can go on. One file
+/// per zone in a folder; a zone is what was asked to be swept, by `zoneKey`.
 class ZonePlanFile {
  public:
   /// @param folder  is made where it is missing; "~" at its front is the home folder.
   ZonePlanFile(const std::string& folder, std::uint64_t zone_key);
 
   /// nullopt where nothing is kept for the zone, or the file is damaged.
-  std::optional<ZoneProgress> read() const;
+  std::optional<CoverageProgress> read() const;
 
   /// Replaces the file as a whole, so that a crash leaves the old or the new one.
   /// @throws InternalError  it cannot be written; the text names the file.
-  void write(const ZoneProgress& progress) const;
+  void write(const CoverageProgress& progress) const;
 
   const std::string& path() const { return path_; }
 

@@ -65,7 +65,7 @@ TEST(CoveragePlanner, SweepsARectangle) {
   EXPECT_NEAR(result.free_area, 1200.0, 12.0);
   EXPECT_TRUE(isDrivable(result.path, area));
   EXPECT_LT((result.path.front().pose().position() - kStart.position()).norm(), 1e-6);
-  EXPECT_EQ(result.swaths.size(), result.total_swaths);
+  EXPECT_EQ(result.swaths.size(), result.lines.size());
 }
 
 TEST(CoveragePlanner, KeepsOutOfHoles) {
@@ -94,28 +94,75 @@ TEST(CoveragePlanner, GoesOnWhereAnEarlierRunStopped) {
   const CoverageArea area{box(0, 0, 40, 30), {}};
   const CoverageResult whole = planned(area);
   CoverageProgress progress;
-  progress.planned_from = kStart;
-  progress.first_swath = whole.total_swaths / 2;
+  progress.lines = whole.lines;
+  for (std::size_t i = 0; i < whole.lines.size() / 2; ++i) progress.done.push_back(i);
   const CoverageResult rest = planned(area, progress);
-  EXPECT_EQ(rest.total_swaths, whole.total_swaths);
-  EXPECT_EQ(rest.swaths.front().index, progress.first_swath);
+  EXPECT_EQ(rest.lines.size(), whole.lines.size());
+  EXPECT_EQ(rest.swaths.size() + progress.done.size(), whole.lines.size());
+  EXPECT_EQ(rest.swaths.front().index, progress.done.size());
   EXPECT_LT(rest.length, whole.length);
   EXPECT_NEAR(rest.coverage_ratio, whole.coverage_ratio, 0.01);
   EXPECT_TRUE(isDrivable(rest.path, area));
 }
 
 TEST(CoveragePlanner, TriesSkippedSwathsAtTheEnd) {
+  const CoverageArea area{box(0, 0, 30, 20), {}};
   CoverageProgress progress;
+  progress.lines = planned(area).lines;
   progress.skipped = {1};
-  const CoverageResult result = planned({box(0, 0, 30, 20), {}}, progress);
+  const CoverageResult result = planned(area, progress);
   EXPECT_EQ(result.swaths.front().index, 0u);
   EXPECT_EQ(result.swaths.back().index, 1u);
+  EXPECT_TRUE(isDrivable(result.path, area));
+}
+
+TEST(CoveragePlanner, LeavesOutASwathThatANewObstacleBlocks) {
+  CoverageProgress progress;
+  progress.lines = planned({box(0, 0, 40, 30), {}}).lines;
+  const CoverageArea now{box(0, 0, 40, 30), {box(20, 14, 22, 16)}};
+  const CoverageResult result = planned(now, progress);
+  EXPECT_LT(result.swaths.size(), progress.lines.size());
+  EXPECT_FALSE(result.warnings.empty());
+  EXPECT_TRUE(isDrivable(result.path, now));
 }
 
 TEST(CoveragePlanner, RefusesProgressOfAnotherPlan) {
   CoverageProgress progress;
-  progress.first_swath = 100000;
+  progress.done = {100000};
   EXPECT_THROW(planned({box(0, 0, 30, 20), {}}, progress), InvalidRequest);
+}
+
+/// 40 m x 30 m at 0.25 m with one obstacle, 3 m x 1 m, and a field of unknown cells.
+OccupancyGrid gridWithObstacle() {
+  OccupancyGrid grid;
+  grid.resolution = 0.25;
+  grid.width = 160;
+  grid.height = 120;
+  grid.cells.assign(160 * 120, 0);
+  const auto fill = [&](unsigned x0, unsigned y0, unsigned x1, unsigned y1, std::int8_t value) {
+    for (unsigned y = y0; y < y1; ++y) {
+      for (unsigned x = x0; x < x1; ++x) grid.cells[y * 160 + x] = value;
+    }
+  };
+  fill(80, 60, 92, 64, 100);
+  fill(100, 20, 150, 100, -1);
+  return grid;
+}
+
+TEST(CoveragePlanner, KeepsOutOfOccupiedCells) {
+  CoverageArea area{box(0, 0, 40, 30), {}};
+  area.grid = gridWithObstacle();
+  const CoverageResult result = planned(area);
+  EXPECT_TRUE(isDrivable(result.path, {box(0, 0, 40, 30), {box(20, 15, 23, 16)}}));
+  EXPECT_NEAR(result.free_area, 1200.0 - 3.0, 5.0);
+  EXPECT_GT(result.coverage_ratio, 0.95) << "cells that are unknown are swept";
+}
+
+TEST(CoveragePlanner, RefusesAGridThatHoldsFewerCellsThanItSays) {
+  CoverageArea area{box(0, 0, 40, 30), {}};
+  area.grid = gridWithObstacle();
+  area.grid->cells.pop_back();
+  EXPECT_THROW(planned(area), InvalidRequest);
 }
 
 TEST(CoveragePlanner, RefusesAStartOutsideTheArea) {
@@ -124,7 +171,21 @@ TEST(CoveragePlanner, RefusesAStartOutsideTheArea) {
 }
 
 TEST(CoveragePlanner, RefusesAnAreaTheVehicleDoesNotFitInto) {
-  EXPECT_THROW(CoveragePlanner(sweeper(), params()).plan({box(0, 0, 1, 1), {}}, std::nullopt, {}, {}), Error);
+  try {
+    planned({box(0, 0, 1, 1), {}});
+    FAIL() << "accepted";
+  } catch (const InvalidRequest& error) {
+    EXPECT_NE(std::string(error.what()).find("smaller than the vehicle"), std::string::npos) << error.what();
+  }
+}
+
+TEST(CoveragePlanner, RefusesHolesThatLeaveNothing) {
+  try {
+    planned({box(0, 0, 40, 30), {box(1, 1, 2, 2), box(-5, -5, 50, 50)}});
+    FAIL() << "accepted";
+  } catch (const InvalidRequest& error) {
+    EXPECT_NE(std::string(error.what()).find("hole 1"), std::string::npos) << error.what();
+  }
 }
 
 TEST(CoveragePlanner, StopsWhenItIsCancelled) {

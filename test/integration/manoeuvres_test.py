@@ -182,7 +182,8 @@ class ManoeuvresTest(unittest.TestCase):
         self.drive_to_the_middle()
         invalid = CommandStatus.INVALID_REQUEST
         self.assert_refused(self.zone_cover(), invalid, "zone_cover_area_id", "drivable_roi")
-        self.assert_refused(self.zone_cover(drivable_roi=polygon([(0, 0), (1, 0), (1, 1), (0, 1)])), CommandStatus.START_BLOCKED)
+        self.assert_refused(self.zone_cover(drivable_roi=polygon([(0, 0), (1, 0), (1, 1), (0, 1)])), invalid,
+                            "smaller than the vehicle")
         self.assert_refused(self.zone_cover(drivable_roi=polygon([(0, 0), (30, 30), (30, 0), (0, 30)])), invalid,
                             "drivable_roi")
         elsewhere = polygon([(100, 100), (140, 100), (140, 140), (100, 140)])

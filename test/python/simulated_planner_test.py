@@ -44,6 +44,15 @@ class SimulatedPlannerTest(unittest.TestCase):
         self.assertEqual(self.planner.state.speed, 0.0)
         self.assertEqual(self.planner.scenario, "IDLE")
 
+    def test_finishes_at_once_where_it_stands_already(self):
+        self.planner.accept(motion_command(make_path([(0.0, 0.0)])))
+        self.assert_last(7, CommandStatus.FINISHED, "already")
+        self.assertTrue(self.planner.is_idle)
+
+    def test_refuses_a_path_without_length_elsewhere(self):
+        self.planner.accept(motion_command(make_path([(0.0, 0.0)], start=(9.0, 0.0, 0.0))))
+        self.assert_last(7, CommandStatus.ERROR, "no length")
+
     def test_is_idle_before_and_after_a_command_only(self):
         self.assertTrue(self.planner.is_idle)
         self.planner.accept(motion_command(make_path([(5.0, 0.0)])))

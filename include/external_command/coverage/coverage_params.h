@@ -25,9 +25,8 @@ struct CoverageParams {
   double target_coverage = 0.993;  ///< of the reachable area; beyond it, only what costs little is swept, [0.5, 1]
   double gear_change_cost = 0.5;   ///< price of a gear change, as length, not negative [m]
   double spacing = 1.0;            ///< between points of the path, at most, [0.05, 100] [m]
-  double time_budget = 3.0;  ///< past half of it no further variant is tried, past all of it the plan is given up,
-                             ///< (0, 3600] [s]
-  unsigned seed = 1;         ///< same area, start, parameters and seed: same plan, if the clock does not cut in
+  double time_budget = 3.0;        ///< past 0.4 of it no further variant is tried, past all of it the plan is given up,
+                                   ///< (0, 3600] [s]
 
   /// @throws InvalidParameter  a value is out of range: the text names key, value and range.
   void validate() const;

@@ -11,6 +11,8 @@
 #include "external_command/core/polygon.h"
 #include "external_command/core/vehicle.h"
 #include "external_command/coverage/coverage_params.h"
+#include "external_command/free_space/reeds_shepp.h"
+#include "external_command/free_space/region.h"
 
 namespace external_command {
 
@@ -19,28 +21,38 @@ namespace external_command {
 struct CoverageArea {
   Polygon outer;
   std::vector<Polygon> holes;
+  /// Occupied cells are holes too. Unknown ones are not, nor is what lies beyond the grid: a vehicle does not see the
+  /// whole of a large area from its start.
+  std::optional<OccupancyGrid> grid = std::nullopt;
 };
 
-/// One stretch of work: a lap along the border, a ring around a hole, or a straight swath.
+/// The line that the rear-axle centre drives on one stretch of work: a lap along the border, a ring around a hole, or a
+/// straight swath.
+struct SwathLine {
+  Pose2d start;
+  std::vector<ArcSegment> arcs;
+};
+
+/// A swath on the path.
 struct Swath {
-  std::size_t index = 0;      ///< place in the plan; the same for the same area, start and parameters
+  std::size_t index = 0;      ///< in CoverageResult::lines
   std::size_t first = 0;      ///< its first point in CoverageResult::path
   std::size_t last = 0;       ///< its last point; the vehicle arrives working at first + 1 ... last
   double length = 0.0;        ///< [m]
   double covered_area = 0.0;  ///< that it adds to what the swaths before it on the path have swept [m^2]
 };
 
-/// Where an earlier run of the same plan stopped. The default is a fresh start.
+/// Where an earlier run stopped. The default is a fresh start.
 struct CoverageProgress {
-  std::size_t first_swath = 0;         ///< Swath::index to go on with; those before it are done
-  std::vector<std::size_t> skipped;    ///< Swath::index of those that were blocked: tried again at the end
-  std::optional<Pose2d> planned_from;  ///< the start of the first run, which the order of the swaths depends on
+  std::vector<SwathLine> lines;      ///< CoverageResult::lines of the first run; none: they are planned
+  std::vector<std::size_t> done;     ///< of the lines: swept, not to be driven again
+  std::vector<std::size_t> skipped;  ///< of the lines: were blocked, tried again at the end
 };
 
 struct CoverageResult {
   Path path;                     ///< of the rear-axle centre; `tool_on` where the vehicle arrives working
   std::vector<Swath> swaths;     ///< in the order of the path
-  std::size_t total_swaths = 0;  ///< of the whole plan, those before CoverageProgress::first_swath included
+  std::vector<SwathLine> lines;  ///< all swaths of the plan in their order, those that are done included
 
   double coverage_ratio = 0.0;                  ///< swept share of what the vehicle can reach from the start
   double covered_free = 0.0;                    ///< swept share of the whole free area
@@ -69,10 +81,11 @@ class CoveragePlanner {
   CoveragePlanner(const VehicleParams& vehicle, const CoverageParams& params);
 
   /// @param start     pose of the vehicle; not given: the path begins with its first swath.
-  /// @param progress  to go on with an earlier plan: the same area, parameters and `planned_from` give the same swaths.
-  ///                  The ratios then tell of the whole plan, the path and the lengths of what is still to be done.
+  /// @param progress  to go on with an earlier plan, in the same area; it may have new holes since. The ratios then
+  /// tell
+  ///                  of the whole plan, the path and the lengths of what is still to be done.
   /// @throws InvalidRequest   the area is smaller than the vehicle, a hole leaves nothing of it, it is too large, or
-  ///                          `progress` names a swath that the plan does not have.
+  ///                          `progress` names a line that there is not.
   /// @throws StartBlocked     the footprint at `start` is outside the area or in a hole; the text says by how much.
   /// @throws NoPath           no swath can be reached from `start`.
   /// @throws PlanningTimeout  time_budget ran out.
