@@ -15,6 +15,7 @@ EC_DEBIAN_PACKAGES=(
   python3-rosbag python3-roslaunch python3-rosnode python3-rosparam python3-rospy python3-rosservice python3-rostopic
   python3-tf2-ros python3-geometry-msgs python3-nav-msgs python3-std-msgs python3-visualization-msgs
   python3-numpy python3-protobuf python3-yaml
+  netbase  # makes /etc/hosts where there is none, as in a bare chroot: ROS needs the name localhost
   # test
   catkin-lint libgtest-dev librostest-dev python3-rostest
 )
@@ -40,7 +41,7 @@ ec_install() {
   local missing
   mapfile -t missing < <(ec_missing_packages "${wanted[@]}")
   [ "${#missing[@]}" -gt 0 ] || return 0
-  echo "installing ${#missing[@]} of ${#wanted[@]} system packages: ${missing[*]}"
+  echo "installing ${#missing[@]} of ${#wanted[@]} system packages (a few minutes for all): ${missing[*]}"
   ec_apt_get "${missing[@]}"
 }
 
@@ -57,7 +58,8 @@ ec_missing_packages() {
 ec_apt_get() {
   local as_root=(env)
   if [ "$(id --user)" -ne 0 ]; then
-    command -v sudo >/dev/null || ec_fail "not root, and there is no sudo; as root: apt-get install $*"
+    { command -v sudo >/dev/null && sudo true; } ||
+      ec_fail "not root, and no way in by sudo; as root: apt-get install $*"
     as_root=(sudo env)
   fi
   local apt=("${as_root[@]}" DEBIAN_FRONTEND=noninteractive apt-get --yes --quiet=2 -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=300)

@@ -21,8 +21,8 @@ constexpr double kMarginSlack = 2e-3;  ///< of the margin, that two checks may m
 FreeSpaceParams quickParams(double margin = 0.05) {
   FreeSpaceParams params;
   params.margin = margin;
-  params.time_budget = 10.0;
-  params.improve_budget = 5.0;
+  params.time_budget = 600.0;  // the iterations bound the work, whatever else the machine does
+  params.improve_budget = 300.0;
   params.improve_iterations = 1000;
   return params;
 }
