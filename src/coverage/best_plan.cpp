@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kTimeForTrying = 0.4;    ///< share of the budget after which no further plan is tried
 constexpr double kTimeForSettling = 0.7;  ///< the same for settling one
+constexpr double kHole = 60.0;            ///< squares of a swath's width that take as long to plan as a hole
 constexpr double kEqual = 1e-9;           ///< plans with costs as near as that are the same
 
 /// How much is tried: the less, the longer one plan takes.
@@ -23,10 +24,17 @@ struct Effort {
   int rounds = 1;                      ///< as settled()
 };
 
-Effort effortFor(double swaths) {
-  if (swaths < 1500.0) return {{3.0, 4.0, 6.0, 8.0, 12.0, 20.0}, 1, 3, {1.0, 3.0}, 4, 6};
-  if (swaths < 3000.0) return {{3.0, 5.0, 8.0, 12.0, 20.0}, 1, 2, {1.0, 4.0}, 2, 4};
-  if (swaths < 5000.0) return {{3.0, 5.0, 8.0, 12.0, 20.0}, 1, 2, {1.0}, 2, 3};
+double holesOf(const Field& field) {
+  std::size_t holes = 0;
+  for (const shapes::Shape& shape : field.workable()) holes += shape.inners().size();
+  return static_cast<double>(holes);
+}
+
+/// @param size  of the task: the area in squares of a swath's width, and its holes.
+Effort effortFor(double size) {
+  if (size < 1500.0) return {{3.0, 4.0, 6.0, 8.0, 12.0, 20.0}, 1, 3, {1.0, 3.0}, 4, 6};
+  if (size < 3000.0) return {{3.0, 5.0, 8.0, 12.0, 20.0}, 1, 2, {1.0, 4.0}, 2, 4};
+  if (size < 5000.0) return {{3.0, 5.0, 8.0, 12.0, 20.0}, 1, 2, {1.0}, 2, 3};
   return {{4.0}, 0, 1, {1.0}, 1, 1};
 }
 
@@ -38,7 +46,7 @@ class Contest {
         routes_(field),
         empty_(field.makeGrid()),
         goal_(std::max(empty_.area(kGoal, 0), 1e-9)),
-        effort_(effortFor(goal_ / (field.width() * field.width()))) {}
+        effort_(effortFor(goal_ / (field.width() * field.width()) + kHole * holesOf(field))) {}
 
   Plan run() {
     tryPrices();

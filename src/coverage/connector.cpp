@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "external_command/core/error.h"
 #include "external_command/free_space/free_space_planner.h"
@@ -16,6 +17,8 @@ namespace {
 constexpr std::array<double, 11> kShifts = {0.0, 0.3, -0.3, 0.6, -0.6, 1.0, -1.0, 1.6, -1.6, 2.5, -2.5};
 constexpr double kLongest = 4.0;  ///< how much longer than the shortest a turn may be, in turning radii
 constexpr std::size_t kMostTried = 600;
+constexpr std::array<double, 2> kBacked = {0.4, 1.0};  ///< shares of a swath that are backed along
+constexpr double kRoom = 8.0;          ///< around both ends that a search looks at first, in turning radii
 constexpr unsigned kMostSteps = 2500;  ///< of a search; a swath that is harder to get to is not worth it
 
 struct Candidate {
@@ -43,7 +46,27 @@ unsigned gearChangesOf(const Curve& curve) {
 
 }  // namespace
 
-std::optional<Curve> Connector::connect(const Pose2d& from, const Pose2d& to) const {
+std::optional<Curve> Connector::connect(const Curve* driven, const Pose2d& from, const Curve& next) const {
+  if (auto curve = turn(from, next.start)) return curve;
+  for (const double share : kBacked) {
+    if (driven != nullptr) {
+      const double length = driven->length();
+      Curve curve = backedUp(partOf(*driven, (1.0 - share) * length, length));
+      if (const auto rest = turn(curve.end(), next.start)) {
+        curve.append(rest->arcs);
+        return curve;
+      }
+    }
+    const Curve begin = partOf(next, 0.0, share * next.length());
+    if (auto curve = turn(from, begin.end())) {
+      curve->append(backedUp(begin).arcs);
+      return curve;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Curve> Connector::turn(const Pose2d& from, const Pose2d& to) const {
   field_.poll();
   if (auto curve = shortTurn(from, to)) return curve;
   if (auto curve = shiftedTurn(from, to)) return curve;
@@ -94,7 +117,21 @@ std::optional<Curve> Connector::shiftedTurn(const Pose2d& from, const Pose2d& to
   return std::nullopt;
 }
 
+/// Nearby first: most ways lead no farther, and to prepare for the whole area takes longer than to search.
 std::optional<Curve> Connector::search(const Pose2d& from, const Pose2d& to) const {
+  const double room = kRoom * field_.radius();
+  const Point2d low = from.position().cwiseMin(to.position()) - Point2d(room, room);
+  const Point2d high = from.position().cwiseMax(to.position()) + Point2d(room, room);
+  if (auto curve = searchWithin(BoundingBox{low, high}, from, to)) return curve;
+  return searchWithin(std::nullopt, from, to);
+}
+
+std::optional<Curve> Connector::searchWithin(const std::optional<BoundingBox>& box, const Pose2d& from,
+                                             const Pose2d& to) const {
+  Region::Parts parts;
+  parts.drivable = field_.region().drivable();
+  parts.non_drivable = field_.region().nonDrivable();
+  parts.axle_bounds = box;
   FreeSpaceParams params;
   params.planner = "hybrid_astar";
   params.margin = field_.params().margin;
@@ -105,7 +142,7 @@ std::optional<Curve> Connector::search(const Pose2d& from, const Pose2d& to) con
   params.spacing = 0.25;
   try {
     const FreeSpaceResult result =
-        FreeSpacePlanner(field_.vehicle(), params).plan(from, {to}, field_.region(), field_.cancel());
+        FreeSpacePlanner(field_.vehicle(), params).plan(from, {to}, Region(std::move(parts)), field_.cancel());
     Curve curve{from, {}};
     for (std::size_t i = 1; i < result.path.size(); ++i) {
       const ReferencePoint& point = result.path[i];

@@ -13,13 +13,18 @@ class Connector {
  public:
   explicit Connector(const Field& field) : field_(field) {}
 
-  /// A short way from `from` to `to`; nullopt if none was found.
-  std::optional<Curve> connect(const Pose2d& from, const Pose2d& to) const;
+  /// A short way from `from` to the start of `next`; nullopt if none was found. Where there is no turn, part of
+  /// `driven` is backed along first, the way that led to `from`, or part of `next` last: out of a dead end, or into
+  /// one.
+  /// @param driven  nullptr: what led there is not known.
+  std::optional<Curve> connect(const Curve* driven, const Pose2d& from, const Curve& next) const;
 
  private:
+  std::optional<Curve> turn(const Pose2d& from, const Pose2d& to) const;
   std::optional<Curve> shortTurn(const Pose2d& from, const Pose2d& to) const;
   std::optional<Curve> shiftedTurn(const Pose2d& from, const Pose2d& to) const;
   std::optional<Curve> search(const Pose2d& from, const Pose2d& to) const;
+  std::optional<Curve> searchWithin(const std::optional<BoundingBox>& box, const Pose2d& from, const Pose2d& to) const;
 
   const Field& field_;
 };

@@ -16,7 +16,7 @@ constexpr double kLongPrice = 4.0;    ///< of length beyond what is usual for th
 /// Length, as multiple of a perfect path's, that the last corners are not worth: a field of a few hundred swath widths
 /// squared is mostly corners and turns.
 double longFor(const Field& field, double goal) {
-  constexpr double kSmall = 800.0, kSmallLong = 1.45, kLargeLong = 1.17;
+  constexpr double kSmall = 800.0, kSmallLong = 1.45, kLargeLong = 1.16;
   const double size = goal / (field.width() * field.width());
   return std::clamp(kSmallLong - (kSmallLong - kLargeLong) * std::log2(size / kSmall), kLargeLong, kSmallLong);
 }

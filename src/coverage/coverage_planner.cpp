@@ -69,7 +69,7 @@ class PathBuilder {
       result_->warnings.push_back(text("swath ", index, " is left out: the footprint would not stay inside"));
       return;
     }
-    if (at_ && !transfer(way.start, index)) return;
+    if (at_ && !transfer(index)) return;
     Swath swath;
     swath.index = index;
     swath.first = result_->path.empty() ? 0 : result_->path.size() - 1;
@@ -100,8 +100,8 @@ class PathBuilder {
   }
 
  private:
-  bool transfer(const Pose2d& to, std::size_t index) {
-    const std::optional<Curve> link = wayTo(to, index);
+  bool transfer(std::size_t index) {
+    const std::optional<Curve> link = wayTo(index);
     if (link && field_.isBarelyFree(*link)) {
       append(*link, false);
       return true;
@@ -111,11 +111,12 @@ class PathBuilder {
   }
 
   /// As planned, if the vehicle is where the plan takes it to be.
-  std::optional<Curve> wayTo(const Pose2d& to, std::size_t index) const {
+  std::optional<Curve> wayTo(std::size_t index) const {
     if (index < course_.links.size() && course_.links[index] && isSame(course_.links[index]->start, *at_)) {
       return course_.links[index];
     }
-    return Connector(field_).connect(*at_, to);
+    const Curve* driven = result_->swaths.empty() ? nullptr : &course_.lines[result_->swaths.back().index];
+    return Connector(field_).connect(driven, *at_, course_.lines[index]);
   }
 
   void append(const Curve& curve, bool tool_on) {

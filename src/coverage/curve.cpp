@@ -9,15 +9,15 @@ namespace external_command {
 namespace {
 
 constexpr double kSagitta = 0.005;  ///< of a strip's edge [m]
+constexpr int kRounds = 2;          ///< until a closed line is followed in the same way each time
 constexpr double kEmptyArc = 1e-9;  ///< [m]
 
 /// Pure pursuit along a polyline, the progress on which never goes back.
 class Follower {
  public:
-  Follower(const Polyline& line, double from, double to, double max_kappa)
-      : line_(line), s_(from), to_(to), max_kappa_(max_kappa), step_(0.1 / max_kappa) {
-    curve_.start = line.poseAt(from);
-    pose_ = curve_.start;
+  Follower(const Polyline& line, double from, double to, double max_kappa, const Pose2d& start)
+      : line_(line), s_(from), to_(to), max_kappa_(max_kappa), step_(0.1 / max_kappa), pose_(start) {
+    curve_.start = start;
   }
 
   Curve drive() {
@@ -140,7 +140,13 @@ std::vector<Pose2d> posesAlong(const Curve& curve, double reach, double step) {
 }
 
 Curve follow(const Polyline& line, double from, double to, double max_kappa) {
-  return Follower(line, from, to, max_kappa).drive();
+  return Follower(line, from, to, max_kappa, line.poseAt(from)).drive();
+}
+
+Curve followRound(const Polyline& line, double length, double max_kappa) {
+  Curve curve = follow(line, 0.0, length, max_kappa);
+  for (int round = 0; round < kRounds; ++round) curve = Follower(line, 0.0, length, max_kappa, curve.end()).drive();
+  return curve;
 }
 
 std::vector<std::array<Point2d, 4>> stripsOf(const Curve& curve, double width) {

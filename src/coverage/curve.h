@@ -47,6 +47,9 @@ std::vector<Pose2d> posesAlong(const Curve& curve, double reach, double step);
 /// 1992), so that what comes out can be driven exactly, and lies within centimetres of a line that bends less.
 Curve follow(const Polyline& line, double from, double to, double max_kappa);
 
+/// The same once round a closed line of `length` [m], so that the end meets the start. `line` goes on beyond it.
+Curve followRound(const Polyline& line, double length, double max_kappa);
+
 /// Corners of the strip of `width` [m] that a straight or bent bit of work sweeps: pieces of the curve on which the
 /// strip's edges stay within a centimetre of straight.
 std::vector<std::array<Point2d, 4>> stripsOf(const Curve& curve, double width);

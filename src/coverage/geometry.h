@@ -49,8 +49,7 @@ shapes::Shapes unionOf(std::vector<shapes::Shapes> all);
 shapes::Shapes difference(const shapes::Shapes& from, const shapes::Shapes& what);
 shapes::Shapes intersection(const shapes::Shapes& a, const shapes::Shapes& b);
 
-/// Grown by `distance` [m] all round, or shrunk where that is negative; round corners. Checked by area and distance,
-/// since some releases of the library lose a part now and then: tried again with a slightly different distance.
+/// Grown by `distance` [m] all round, or shrunk where that is negative; round corners.
 shapes::Shapes grown(const shapes::Shapes& shapes, double distance);
 
 /// The area with its border moved inwards by `border` and its holes grown by `holes` [m], neither negative.

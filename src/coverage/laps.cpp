@@ -40,7 +40,7 @@ class LapBuilder {
   /// The ring bends gently everywhere: driven as it is, either way round.
   std::optional<Work> roundLap() const {
     const Polyline line(ring_.part(0.0, 1.2 * ring_.length()));
-    const Curve curve = follow(line, 0.0, ring_.length(), maxKappa());
+    const Curve curve = followRound(line, ring_.length(), maxKappa());
     std::optional<Work> work;
     for (const Curve& way : {curve, turnedRound(curve)}) {
       if (!field_.isFree(way)) continue;

@@ -40,7 +40,8 @@ bool Links::settle(const Step* from, const Step* to) {
   if (from == nullptr && !field_.start()) return false;
   const auto [entry, is_new] = ways_.try_emplace(idOf(from, to));
   if (!is_new) return false;
-  entry->second = Connector(field_).connect(beginOf(from), startOf(*to));
+  const std::optional<Curve> driven = from == nullptr ? std::nullopt : std::optional<Curve>(curveOf(*from));
+  entry->second = Connector(field_).connect(driven ? &*driven : nullptr, beginOf(from), curveOf(*to));
   const double guess = price(from, to), length = entry->second ? entry->second->length() : kNoWay;
   known_[idOf(from, to)] = static_cast<float>(length);
   return std::abs(length - guess) > kDifference;

@@ -57,6 +57,7 @@ class Links {
   const Field& field_;
   const std::vector<Work>& works_;
   Routes& routes_;
+  Curve curveOf(const Step& step) const { return works_[step.work].curveOf(step.way); }
   Pose2d beginOf(const Step* from) const { return from == nullptr ? *field_.start() : endOf(*from); }
 
   std::unordered_map<std::uint64_t, float> known_;

@@ -12,6 +12,7 @@ namespace external_command {
 namespace {
 
 constexpr double kDear = 12.0;  ///< price of a square metre, times the width, for which the last swaths are looked for
+constexpr int kMostDead = 10;   ///< rounds of leaving out what no way leads to
 constexpr double kTimeForChanges = 0.7;  ///< share of the budget after which a plan is settled as it is
 constexpr int kRounds = 4;               ///< of swaths for what is left
 constexpr double kCheapTurn = 0.3;       ///< price of a turn in their search, in radii: the tour knows the real one
@@ -44,7 +45,7 @@ class Planner {
       if (round == 1) putIn();
       leaveOut();
     }
-    settleLinks();
+    for (int round = 0; round < kMostDead && settleLinks(); ++round) leaveOut();
     plan_.links.clear();
     for (long i = 0; at(i) != nullptr; ++i) plan_.links.push_back(links_.way(at(i - 1), at(i)));
     return finish();

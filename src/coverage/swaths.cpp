@@ -16,6 +16,7 @@ constexpr int kBins = 6;        ///< across a swath
 constexpr int kCoarseBins = 3;  ///< the same, in the search for a heading
 constexpr double kCoarseSpots = 20e3;
 constexpr int kHeadings = 24;          ///< tried, besides those of the border's edges
+constexpr std::size_t kPromising = 8;  ///< headings that are looked at again, with lines in between
 constexpr double kDistinct = 0.01;     ///< headings closer than this are one [rad]
 constexpr std::size_t kFinalists = 2;  ///< headings looked at closely
 
@@ -28,17 +29,23 @@ class SwathSearch {
     const double bin = field_.width() / kCoarseBins;
     const Remains coarse(remains_, std::max(0.6 * bin, std::sqrt(remains_.area / kCoarseSpots)));
     std::vector<SwathHeading> ranked;
-    for (const double heading : headings) {
-      field_.poll();
-      const Profile profile(coarse, heading, bin);
-      double worth = 0.0;
-      for (int offset = 0; offset < kCoarseBins; ++offset) {
-        worth = std::max(worth, worthOf(profile, kCoarseBins, offset));
+    const auto rankBy = [&](int offsets) {
+      for (SwathHeading& entry : ranked) {
+        field_.poll();
+        const Profile profile(coarse, entry.heading, bin);
+        for (int offset = 0; offset < offsets; ++offset) {
+          entry.worth = std::max(entry.worth, worthOf(profile, kCoarseBins, offset));
+        }
       }
-      ranked.push_back({heading, worth});
+      const auto better = [](const SwathHeading& a, const SwathHeading& b) { return a.worth > b.worth; };
+      std::stable_sort(ranked.begin(), ranked.end(), better);
+    };
+    for (const double heading : headings) ranked.push_back({heading, 0.0});
+    if (ranked.size() > kPromising) {
+      rankBy(1);
+      ranked.resize(kPromising);
     }
-    const auto better = [](const SwathHeading& a, const SwathHeading& b) { return a.worth > b.worth; };
-    std::stable_sort(ranked.begin(), ranked.end(), better);
+    rankBy(kCoarseBins);
     return ranked;
   }
 
