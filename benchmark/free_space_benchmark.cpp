@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <cstdio>
 #include <ctime>
-#include <filesystem>
-#include <functional>
 #include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "command_line.h"
 #include "external_command/core/error.h"
 #include "external_command/free_space/free_space_planner.h"
 #include "external_command/free_space/planner_log.h"
+#include "files.h"
 #include "parking_case.h"
 #include "path_files.h"
+#include "statistics.h"
 
 namespace external_command {
 namespace benchmark {
@@ -48,37 +48,21 @@ struct Summary {
   std::vector<double> first_times, first_ratios, ratios;
 };
 
-Options parse(const std::vector<std::string>& words) {
+Options parse(CommandLine line) {
   Options options;
   FreeSpaceParams& params = options.params;
   params.margin = 0.01;
   params.improve_iterations = 0;
   double improve = -1.0;
-  std::size_t i = 0;
-  const auto value = [&] {
-    if (i + 1 >= words.size()) throw std::invalid_argument(words[i] + " needs a value");
-    return words[++i];
-  };
-  const std::map<std::string, std::function<void()>> known{
-      {"--time-budget", [&] { params.time_budget = std::stod(value()); }},
-      {"--improve", [&] { improve = std::stod(value()); }},
-      {"--planner", [&] { params.planner = value(); }},
-      {"--seed", [&] { params.seed = static_cast<unsigned>(std::stoul(value())); }},
-      {"--threads", [&] { params.threads = static_cast<unsigned>(std::stoul(value())); }},
-      {"--margin", [&] { params.margin = std::stod(value()); }},
-      {"--continuous", [&] { params.continuous_curvature = true; }},
-      {"--paths", [&] { options.paths = value(); }},
-      {"--svg", [&] { options.drawings = value(); }}};
-  for (; i < words.size(); ++i) {
-    const auto option = known.find(words[i]);
-    if (option != known.end()) {
-      option->second();
-    } else if (words[i].rfind("--", 0) == 0) {
-      throw std::invalid_argument("unknown option " + words[i]);
-    } else {
-      options.inputs.push_back(words[i]);
-    }
-  }
+  options.inputs = line.parse({{"--time-budget", [&] { params.time_budget = line.number(); }},
+                               {"--improve", [&] { improve = line.number(); }},
+                               {"--planner", [&] { params.planner = line.value(); }},
+                               {"--seed", [&] { params.seed = static_cast<unsigned>(line.integer(0)); }},
+                               {"--threads", [&] { params.threads = static_cast<unsigned>(line.integer(0)); }},
+                               {"--margin", [&] { params.margin = line.number(); }},
+                               {"--continuous", [&] { params.continuous_curvature = true; }},
+                               {"--paths", [&] { options.paths = line.value(); }},
+                               {"--svg", [&] { options.drawings = line.value(); }}});
   params.improve_budget = improve < 0.0 ? params.time_budget : improve;
   if (options.inputs.empty()) throw std::invalid_argument("give a folder or files of cases");
   return options;
@@ -117,17 +101,6 @@ void runCase(const std::string& file, const Options& options, Summary* summary) 
   std::fflush(stdout);
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
-
-double largest(const std::vector<double>& values) {
-  return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
-}
-
 void print(const Summary& summary) {
   std::printf("solved %zu of %zu; first path: median %.2f ms, slowest %.2f ms", summary.first_times.size(),
               summary.cases, 1e3 * median(summary.first_times), 1e3 * largest(summary.first_times));
@@ -139,16 +112,14 @@ void print(const Summary& summary) {
   std::printf("\n");
 }
 
-int run(const std::vector<std::string>& words) {
-  if (std::find(words.begin(), words.end(), "--help") != words.end()) {
+int run(const CommandLine& line) {
+  if (line.asksForHelp()) {
     std::fputs(kUsage, stdout);
     return 0;
   }
-  const Options options = parse(words);
+  const Options options = parse(line);
   options.params.validate();
-  for (const std::string& folder : {options.paths, options.drawings}) {
-    if (!folder.empty()) std::filesystem::create_directories(folder);
-  }
+  makeFolders({options.paths, options.drawings});
   setPlannerLog({});
   Summary summary;
   for (const std::string& file : parkingCaseFiles(options.inputs)) {
@@ -166,7 +137,7 @@ int run(const std::vector<std::string>& words) {
 
 int main(int argc, char** argv) {
   try {
-    return external_command::benchmark::run({argv + 1, argv + argc});
+    return external_command::benchmark::run(external_command::benchmark::CommandLine({argv + 1, argv + argc}));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "benchmark_free_space: %s\nSee benchmark_free_space --help.\n", error.what());
     return 2;

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "parking_case.h"
 
-#define BOOST_BIND_GLOBAL_PLACEHOLDERS  // Boost's own JSON parser still uses them
 #include <algorithm>
-#include <boost/property_tree/json_parser.hpp>
-#include <boost/property_tree/ptree.hpp>
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
 
 #include "external_command/core/error.h"
+#include "files.h"
+#include "json_fields.h"
 
 namespace external_command {
 namespace benchmark {
@@ -17,17 +16,9 @@ namespace benchmark {
 namespace {
 
 namespace fs = std::filesystem;
-using Tree = boost::property_tree::ptree;
 
 constexpr const char* kBestKnown = "best_known.json";
 constexpr double kThinnest = 1e-3;  ///< half the width given to an obstacle that has none [m]
-
-std::vector<double> numbersOf(const Tree& tree, std::size_t wanted, const std::string& what) {
-  std::vector<double> numbers;
-  for (const auto& child : tree) numbers.push_back(child.second.get_value<double>());
-  if (numbers.size() != wanted) throw std::runtime_error(what + " must be " + std::to_string(wanted) + " numbers");
-  return numbers;
-}
 
 /// Andrew's monotone chain.
 std::vector<Point2d> convexHull(std::vector<Point2d> points) {
@@ -63,18 +54,7 @@ Polygon obstacleOf(const std::vector<Point2d>& points, const std::string& name) 
   }
 }
 
-VehicleParams vehicleOf(const Tree& tree) {
-  VehicleParams vehicle;
-  vehicle.wheelbase = tree.get<double>("wheelbase");
-  vehicle.width = tree.get<double>("width");
-  vehicle.front_overhang = tree.get<double>("front_overhang");
-  vehicle.rear_overhang = tree.get<double>("rear_overhang");
-  const auto radius = tree.get_optional<double>("min_turning_radius");
-  vehicle.min_turning_radius = radius ? *radius : vehicle.wheelbase / std::tan(tree.get<double>("max_steer"));
-  return vehicle;
-}
-
-Region regionOf(const Tree& tree, const Point2d& origin) {
+Region regionOf(const JsonTree& tree, const Point2d& origin) {
   Region::Parts parts;
   const std::vector<double> bounds = numbersOf(tree.get_child("bounds"), 4, "bounds");
   parts.axle_bounds = BoundingBox{Point2d(bounds[0], bounds[1]) - origin, Point2d(bounds[2], bounds[3]) - origin};
@@ -93,13 +73,13 @@ Region regionOf(const Tree& tree, const Point2d& origin) {
 
 ParkingCase readParkingCase(const std::string& file) {
   try {
-    Tree tree;
+    JsonTree tree;
     boost::property_tree::read_json(file, tree);
     const std::vector<double> start = numbersOf(tree.get_child("start"), 3, "start");
     const std::vector<double> goal = numbersOf(tree.get_child("goal"), 3, "goal");
     ParkingCase result;
     result.name = tree.get<std::string>("name", fs::path(file).stem().string());
-    result.vehicle = vehicleOf(tree.get_child("vehicle"));
+    result.vehicle = vehicleOf(tree.get_child("vehicle"), std::nullopt);
     result.origin = {std::round(goal[0]), std::round(goal[1])};
     result.start = {start[0] - result.origin.x(), start[1] - result.origin.y(), start[2]};
     result.goal = {goal[0] - result.origin.x(), goal[1] - result.origin.y(), goal[2]};
@@ -111,19 +91,9 @@ ParkingCase readParkingCase(const std::string& file) {
 }
 
 std::vector<std::string> parkingCaseFiles(const std::vector<std::string>& files_and_folders) {
-  std::vector<std::string> files;
-  for (const std::string& name : files_and_folders) {
-    if (!fs::exists(name)) throw std::runtime_error("there is no file or folder " + name);
-    if (!fs::is_directory(name)) {
-      files.push_back(name);
-      continue;
-    }
-    for (const fs::directory_entry& entry : fs::directory_iterator(name)) {
-      const fs::path& path = entry.path();
-      if (path.extension() == ".json" && path.filename() != kBestKnown) files.push_back(path.string());
-    }
-  }
-  std::sort(files.begin(), files.end());
+  std::vector<std::string> files = filesOf(files_and_folders, ".json");
+  const auto is_no_case = [](const std::string& file) { return fs::path(file).filename() == kBestKnown; };
+  files.erase(std::remove_if(files.begin(), files.end(), is_no_case), files.end());
   return files;
 }
 
@@ -131,7 +101,7 @@ std::map<std::string, double> bestKnownCosts(const std::string& file) {
   std::map<std::string, double> costs;
   const fs::path path = fs::path(file).parent_path() / kBestKnown;
   if (!fs::exists(path)) return costs;
-  Tree tree;
+  JsonTree tree;
   boost::property_tree::read_json(path.string(), tree);
   for (const auto& entry : tree) costs[entry.first] = entry.second.get<double>("cost");
   return costs;

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "command_line.h"
+#include "coverage_case.h"
+#include "coverage_check.h"
+#include "coverage_files.h"
+#include "external_command/core/error.h"
+#include "files.h"
+#include "made_fields.h"
+#include "statistics.h"
+
+namespace external_command {
+namespace benchmark {
+
+namespace {
+
+constexpr const char* kUsage = R"(usage: benchmark_coverage [OPTION...] [FILE.geojson|DIR ...]
+Plans a path that sweeps each field, one line each and a summary. Needs no ROS master. The fields are the polygons of
+the files, and of all *.geojson in the folders; without any, fields of its own making: rectangles, L, U, rings, fields
+with columns, walls or a narrow neck, and random concave ones with holes, 60 m to 1 km across.
+  --random N        number of random fields (12)
+  --seed N          of the made fields (1)
+  --fields DIR      write each made field as DIR/NAME.geojson
+  --time-budget S   for each field (3)
+  --laps N          along border and holes; -1: as many as serve the objective (-1)
+  --objective NAME  shortest or fewest_turns (shortest)
+  --target SHARE    of the reachable area that is to be swept, what is more only where it costs little (0.993)
+  --paths DIR       write each path as DIR/NAME.json: [[x, y, theta, direction, tool], ...]
+  --svg DIR         draw each path as DIR/NAME.svg: swept green, left out red
+  --help            print this
+In a file: planar coordinates [m], and the properties, each of which may be left out, name, swath_width (4), start
+[x, y, theta] of the rear axle, vehicle {wheelbase (2.5), width (2), front_overhang (0.8), rear_overhang (0.9),
+min_turning_radius (5) or max_steer}.
+Columns: area without holes [ha]; swept share of what the vehicle can reach (the area shrunk by half the larger of
+vehicle and swath width, the part at the start, grown by half the swath) and of the whole area [%]; overlap, swept again
+over swept; path length [m] and, in brackets, that over swept area / swath width; turns; gear changes; poses at which a
+part of the footprint, 1 cm smaller all round, is outside; time of planning on the wall clock and on the processor [s].
+All but the times is measured on the path alone. Exit code: 0; 1 if a field cannot be planned or a path cannot be driven
+or leaves its field; 2 if an option is wrong or a file cannot be read or written.
+)";
+
+constexpr double kLargeField = 12000.0;  // [m^2]
+
+struct Options {
+  CoverageParams params;
+  int random_fields = 12;
+  unsigned seed = 1;
+  std::vector<std::string> inputs;
+  std::string fields;
+  std::string paths;
+  std::string drawings;
+};
+
+struct Summary {
+  std::size_t fields = 0;
+  std::size_t faulty = 0;
+  std::size_t outside = 0;
+  std::vector<double> covered, ratios, large_ratios, times;
+};
+
+CoverageObjective objectiveOf(const std::string& name) {
+  if (name == "shortest") return CoverageObjective::kShortest;
+  if (name == "fewest_turns") return CoverageObjective::kFewestTurns;
+  throw std::invalid_argument("--objective is shortest or fewest_turns, not " + name);
+}
+
+Options parse(CommandLine line) {
+  Options options;
+  CoverageParams& params = options.params;
+  options.inputs = line.parse({{"--random", [&] { options.random_fields = line.integer(0); }},
+                               {"--seed", [&] { options.seed = static_cast<unsigned>(line.integer(0)); }},
+                               {"--fields", [&] { options.fields = line.value(); }},
+                               {"--time-budget", [&] { params.time_budget = line.number(); }},
+                               {"--laps", [&] { params.headland_laps = line.integer(-1); }},
+                               {"--objective", [&] { params.objective = objectiveOf(line.value()); }},
+                               {"--target", [&] { params.target_coverage = line.number(); }},
+                               {"--paths", [&] { options.paths = line.value(); }},
+                               {"--svg", [&] { options.drawings = line.value(); }}});
+  return options;
+}
+
+/// With a number behind each name that there was before.
+void makeNamesUnique(std::vector<CoverageCase>* fields) {
+  std::set<std::string> names;
+  for (CoverageCase& field : *fields) {
+    std::string name = field.name;
+    for (int number = 2; !names.insert(name).second; ++number) name = field.name + "_" + std::to_string(number);
+    field.name = name;
+  }
+}
+
+std::vector<CoverageCase> fieldsOf(const Options& options) {
+  std::vector<CoverageCase> fields;
+  std::vector<std::string> skipped;
+  for (const std::string& file : filesOf(options.inputs, ".geojson")) {
+    for (CoverageCase& field : readCoverageCases(file, &skipped)) fields.push_back(std::move(field));
+  }
+  for (const std::string& text : skipped) std::fprintf(stderr, "%s\n", text.c_str());
+  if (options.inputs.empty()) fields = makeFields(options.seed, options.random_fields);
+  makeNamesUnique(&fields);
+  if (options.inputs.empty() && !options.fields.empty()) {
+    for (const CoverageCase& field : fields) writeCoverageCase(field, options.fields + "/" + field.name + ".geojson");
+  }
+  return fields;
+}
+
+void report(const CoverageCheck& check, double seconds, double cpu_seconds, Summary* summary) {
+  std::printf("area %6.2f  swept %6.2f of %6.2f  overlap %.3f  length %7.0f (%.3f)  turns %4zu  gear changes %3zu",
+              1e-4 * check.free_area, 100.0 * check.covered_reachable, 100.0 * check.covered_free, check.overlap,
+              check.length, check.length_ratio, check.turns, check.gear_changes);
+  std::printf("  outside %zu  time %.3f  cpu %.3f\n", check.outside, seconds, cpu_seconds);
+  for (const std::string& fault : check.faults) std::printf("  FAULT: %s\n", fault.c_str());
+  summary->faulty += check.faults.empty() ? 0 : 1;
+  summary->outside += check.outside > 0 ? 1 : 0;
+  summary->covered.push_back(check.covered_reachable);
+  summary->ratios.push_back(check.length_ratio);
+  if (check.free_area > kLargeField) summary->large_ratios.push_back(check.length_ratio);
+  summary->times.push_back(seconds);
+}
+
+void runField(const CoverageCase& field, const Options& options, Summary* summary) {
+  std::printf("%-28s ", field.name.c_str());
+  CoverageParams params = options.params;
+  params.swath_width = field.swath_width;
+  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t cpu_begin = std::clock();
+  try {
+    const CoverageResult result = CoveragePlanner(field.vehicle, params).plan(field.area(), field.start, {}, {});
+    const double cpu_seconds = static_cast<double>(std::clock() - cpu_begin) / CLOCKS_PER_SEC;
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+    report(checkCoverage(field, result.path), elapsed.count(), cpu_seconds, summary);
+    if (!options.paths.empty()) writeCoveragePath(result.path, options.paths + "/" + field.name + ".json");
+    if (!options.drawings.empty()) drawCoverage(field, result.path, options.drawings + "/" + field.name + ".svg");
+  } catch (const Error& error) {
+    std::printf("FAILED %s: %s\n", toString(error.code()), error.what());
+  }
+  std::fflush(stdout);
+}
+
+void print(const Summary& summary) {
+  std::printf(
+      "planned %zu of %zu; outside %zu, other faults %zu; swept of the reachable: median %.2f %%, least %.2f %%",
+      summary.times.size(), summary.fields, summary.outside, summary.faulty - summary.outside,
+      100.0 * median(summary.covered), 100.0 * least(summary.covered));
+  std::printf("; length ratio: median %.3f, largest %.3f, over 1.2 ha %.3f; time: median %.3f s, slowest %.3f s\n",
+              median(summary.ratios), largest(summary.ratios), largest(summary.large_ratios), median(summary.times),
+              largest(summary.times));
+}
+
+int run(const CommandLine& line) {
+  if (line.asksForHelp()) {
+    std::fputs(kUsage, stdout);
+    return 0;
+  }
+  const Options options = parse(line);
+  options.params.validate();
+  makeFolders({options.fields, options.paths, options.drawings});
+  Summary summary;
+  for (const CoverageCase& field : fieldsOf(options)) {
+    ++summary.fields;
+    runField(field, options, &summary);
+  }
+  print(summary);
+  return summary.faulty == 0 && summary.times.size() == summary.fields ? 0 : 1;
+}
+
+}  // namespace
+
+}  // namespace benchmark
+}  // namespace external_command
+
+int main(int argc, char** argv) {
+  try {
+    return external_command::benchmark::run(external_command::benchmark::CommandLine({argv + 1, argv + argc}));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "benchmark_coverage: %s\nSee benchmark_coverage --help.\n", error.what());
+    return 2;
+  }
+}
