@@ -9,7 +9,6 @@ namespace external_command {
 
 namespace {
 
-constexpr double kNoWay = 1e5;       ///< price of a link that cannot be driven [m]
 constexpr double kDifference = 0.1;  ///< of a way's length from the guess that does not matter [m]
 
 }  // namespace

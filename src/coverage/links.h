@@ -22,6 +22,8 @@ struct Step {
 /// the way round things in between adds. Remembers what it has worked out.
 class Links {
  public:
+  static constexpr double kNoWay = 1e5;  ///< price of a way that was not found [m]
+
   /// `works` may grow at its end.
   Links(const Field& field, const std::vector<Work>& works, Routes* routes);
 

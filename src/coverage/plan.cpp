@@ -152,7 +152,8 @@ class Planner {
         const Step step = *at(i);
         const Curve way = wayOf(step);
         const double saved = way.length() + links_.detour(at(i - 1), step, step, at(i + 1));
-        if (!pays(-saved, -tally_.only(way))) continue;
+        const bool is_wished = isBorderLap(step) && field_.params().headland_laps > 0 && saved < Links::kNoWay / 2.0;
+        if (is_wished || !pays(-saved, -tally_.only(way))) continue;
         tally_.remove(way);
         plan_.steps.erase(plan_.steps.begin() + i--);
         changed = true;

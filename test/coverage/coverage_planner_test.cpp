@@ -84,6 +84,53 @@ TEST(CoveragePlanner, WorksOnSwathsAndNowhereElse) {
   for (std::size_t i = 0; i < result.path.size(); ++i) EXPECT_EQ(result.path[i].tool_on, working.count(i) == 1) << i;
 }
 
+/// Whether there is work along the left border, `away` [m] from it.
+bool worksAlongTheLeft(const CoverageResult& result, double away) {
+  std::size_t points = 0;
+  for (const ReferencePoint& point : result.path) {
+    points += point.tool_on && std::abs(point.x - away) < 0.15 && std::abs(std::cos(point.heading)) < 0.1;
+  }
+  return points > 10;
+}
+
+CoverageResult plannedWith(const CoverageParams& wished) {
+  return CoveragePlanner(sweeper(), wished).plan({box(0, 0, 40, 30), {}}, kStart, {}, {});
+}
+
+TEST(CoveragePlanner, DrivesAsManyHeadlandLapsAsAreWished) {
+  for (const int laps : {0, 1, 3}) {
+    CoverageParams wished = params();
+    wished.headland_laps = laps;
+    wished.swath_heading = 0.0;
+    const CoverageResult result = plannedWith(wished);
+    for (int lap = 0; lap < 4; ++lap) EXPECT_EQ(worksAlongTheLeft(result, 0.8 + 1.6 * lap), lap < laps) << laps;
+    EXPECT_TRUE(isDrivable(result.path, {box(0, 0, 40, 30), {}}));
+  }
+}
+
+TEST(CoveragePlanner, DrivesTheHeadlandFirstOrLast) {
+  for (const bool first : {true, false}) {
+    CoverageParams wished = params();
+    wished.headland_laps = 1;
+    wished.headland_first = first;
+    const CoverageResult result = plannedWith(wished);
+    const auto isAtTheBorder = [&](const Swath& swath) {
+      return box(0, 0, 40, 30).distanceToBorder(result.path[(swath.first + swath.last) / 2].pose().position()) < 0.9;
+    };
+    EXPECT_EQ(isAtTheBorder(result.swaths.front()), first);
+    EXPECT_EQ(isAtTheBorder(result.swaths.back()), !first);
+  }
+}
+
+TEST(CoveragePlanner, LaysTheSwathsInTheDirectionThatIsWished) {
+  CoverageParams wished = params();
+  wished.headland_laps = 0;
+  wished.swath_heading = 0.5;
+  for (const SwathLine& line : plannedWith(wished).lines) {
+    EXPECT_NEAR(std::remainder(line.start.heading - 0.5, M_PI), 0.0, 1e-6);
+  }
+}
+
 TEST(CoveragePlanner, IsRepeatable) {
   const CoverageResult first = planned({box(0, 0, 30, 20), {}}), second = planned({box(0, 0, 30, 20), {}});
   ASSERT_EQ(first.path.size(), second.path.size());
