@@ -28,7 +28,7 @@ with columns, walls or a narrow neck, and random concave ones with holes, 60 m t
   --random N        number of random fields (12)
   --seed N          of the made fields (1)
   --fields DIR      write each made field as DIR/NAME.geojson
-  --time-budget S   for each field (3)
+  --time-budget S   for each field (5)
   --laps N          along border and holes; -1: as many as serve the objective (-1)
   --objective NAME  shortest or fewest_turns (shortest)
   --target SHARE    of the reachable area that is to be swept, what is more only where it costs little (0.993)
@@ -74,6 +74,7 @@ CoverageObjective objectiveOf(const std::string& name) {
 Options parse(CommandLine line) {
   Options options;
   CoverageParams& params = options.params;
+  params.time_budget = 5.0;
   options.inputs = line.parse({{"--random", [&] { options.random_fields = line.integer(0); }},
                                {"--seed", [&] { options.seed = static_cast<unsigned>(line.integer(0)); }},
                                {"--fields", [&] { options.fields = line.value(); }},
