@@ -8,7 +8,7 @@ namespace {
 constexpr std::size_t kFirstPatience = 2000;
 constexpr std::size_t kPatience = 1000;     ///< in the first round
 constexpr std::size_t kMorePatience = 500;  ///< in each further round
-constexpr std::size_t kSearchSteps = 4000;  ///< of one search
+constexpr std::size_t kSearchSteps = 8000;  ///< of one search
 constexpr double kWorthImproving = 1.1;     ///< times the best cost: a fresh path becomes about this much cheaper
 
 }  // namespace

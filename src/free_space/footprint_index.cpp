@@ -4,15 +4,20 @@
 #include <algorithm>
 #include <limits>
 
+#include "external_command/core/error.h"
+#include "external_command/core/text.h"
+
 namespace external_command {
 
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kCellSize = 0.5;       ///< [m]
+constexpr double kCellSize = 0.5;  ///< [m]
 constexpr double kMaxCells = 500'000.0;
-constexpr double kBeyond = 0.25;        ///< edges are listed this far beyond the reach, so that room can be measured [m]
-constexpr double kFineStep = 2e-3;      ///< most that a corner moves between two checks where there is no room [m]
+constexpr std::size_t kMaxListed = 32'000'000;  ///< pairs of cell and edge; bounds the memory
+constexpr std::uint32_t kEdgesAtOnce = 256;     ///< between two checkpoints
+constexpr std::size_t kPairsAtOnce = 1 << 20;   ///< between two checkpoints
+constexpr double kFineStep = 2e-3;  ///< most that a corner moves between two checks where there is no room [m]
 
 BoundingBox emptyBox() { return {Point2d(kInfinity, kInfinity), Point2d(-kInfinity, -kInfinity)}; }
 
@@ -23,12 +28,11 @@ double pointToBox(double u, double v, double l, double w) {
   return squared(std::max(std::abs(u) - l, 0.0)) + squared(std::max(std::abs(v) - w, 0.0));
 }
 
-
 }  // namespace
 
-FootprintIndex::FootprintIndex(const VehicleParams& vehicle, double margin, const Region& region,
-                               const Point2d& origin)
-    : obstacles_(region, origin),
+FootprintIndex::FootprintIndex(const VehicleParams& vehicle, double margin, const Region& region, const Point2d& origin,
+                               const Checkpoint& checkpoint)
+    : obstacles_(region, origin, checkpoint),
       box_(vehicle),
       margin_(margin),
       reach_(box_.circumradius() + margin),
@@ -41,8 +45,9 @@ FootprintIndex::FootprintIndex(const VehicleParams& vehicle, double margin, cons
     edges_.push_back({middle.x(), middle.y(), half.x(), half.y()});
   }
   setExtent();
-  fillStates();
-  spreadEdges();
+  fillStates(checkpoint);
+  spreadEdges(checkpoint);
+  checkpoint();
   extendNear();
 }
 
@@ -75,13 +80,17 @@ long FootprintIndex::cellAt(double x, double y) const {
   return static_cast<long>(row) * columns_ + static_cast<long>(column);
 }
 
-void FootprintIndex::fillStates() {
+void FootprintIndex::fillStates(const Checkpoint& checkpoint) {
   states_.assign(static_cast<std::size_t>(columns_ * rows_), State::kFree);
   const Region& region = obstacles_.region();
   if (region.drivable()) fillPolygon(*region.drivable(), false);
-  for (const Polygon& polygon : region.nonDrivable()) fillPolygon(polygon, true);
+  for (const Polygon& polygon : region.nonDrivable()) {
+    checkpoint();
+    fillPolygon(polygon, true);
+  }
   if (!region.grid()) return;
   for (long row = 0; row < rows_; ++row) {
+    checkpoint();
     for (long column = 0; column < columns_; ++column) {
       State& state = states_[static_cast<std::size_t>(row * columns_ + column)];
       if (obstacles_.isFilledBy(kGridSource, cellCentre(column, row))) state = State::kFilled;
@@ -113,10 +122,23 @@ void FootprintIndex::fillPolygon(const Polygon& polygon, bool inside) {
 }
 
 /// Lists each edge in the cells from which the footprint reaches it, and lowers their `near_`.
-void FootprintIndex::spreadEdges() {
-  const double reach = reach_ + cell_reach_ + kBeyond;
-  near_.assign(states_.size(), static_cast<float>(reach));
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;  // cell, edge
+void FootprintIndex::spreadEdges(const Checkpoint& checkpoint) {
+  near_.assign(states_.size(), static_cast<float>(listReach()));
+  std::vector<CellEdge> pairs;
+  for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+    if (e % kEdgesAtOnce == 0) checkpoint();
+    spread(e, &pairs);
+    if (pairs.size() > kMaxListed) {
+      throw InvalidRequest(text("the region's obstacles have ", edges_.size(),
+                                " edges, too many in one place to keep in ",
+                                "memory; give a smaller region or a coarser grid"));
+    }
+  }
+  list(pairs, checkpoint);
+}
+
+void FootprintIndex::spread(std::uint32_t e, std::vector<CellEdge>* pairs) {
+  const double reach = listReach();
   const Point2d centre = cellCentre(0, 0);
   const auto firstFrom = [&](double value, double corner) {
     return std::max(0L, static_cast<long>(std::ceil((value - corner) / cell_size_)));
@@ -124,32 +146,37 @@ void FootprintIndex::spreadEdges() {
   const auto lastTo = [&](double value, double corner, long count) {
     return std::min(count - 1, static_cast<long>(std::floor((value - corner) / cell_size_)));
   };
-  for (std::uint32_t e = 0; e < edges_.size(); ++e) {
-    const HalfEdge& edge = edges_[e];
-    const double wide = std::abs(edge.hx) + reach, high = std::abs(edge.hy) + reach;
-    const double half_squared = std::max(edge.hx * edge.hx + edge.hy * edge.hy, 1e-18);
-    const long last_row = lastTo(edge.my + high, centre.y(), rows_);
-    const long first_column = firstFrom(edge.mx - wide, centre.x());
-    const long last_column = lastTo(edge.mx + wide, centre.x(), columns_);
-    for (long row = firstFrom(edge.my - high, centre.y()); row <= last_row; ++row) {
-      const double dy = centre.y() + static_cast<double>(row) * cell_size_ - edge.my;
-      for (long column = first_column; column <= last_column; ++column) {
-        const double dx = centre.x() + static_cast<double>(column) * cell_size_ - edge.mx;
-        const double t = std::clamp((dx * edge.hx + dy * edge.hy) / half_squared, -1.0, 1.0);
-        const double distance_squared = squared(dx - t * edge.hx) + squared(dy - t * edge.hy);
-        if (distance_squared > reach * reach) continue;
-        const auto cell = static_cast<std::uint32_t>(row * columns_ + column);
-        near_[cell] = std::min(near_[cell], static_cast<float>(std::sqrt(distance_squared)));
-        pairs.emplace_back(cell, e);
-      }
+  const HalfEdge& edge = edges_[e];
+  const double wide = std::abs(edge.hx) + reach, high = std::abs(edge.hy) + reach;
+  const double half_squared = std::max(edge.hx * edge.hx + edge.hy * edge.hy, 1e-18);
+  const long last_row = lastTo(edge.my + high, centre.y(), rows_);
+  const long first_column = firstFrom(edge.mx - wide, centre.x());
+  const long last_column = lastTo(edge.mx + wide, centre.x(), columns_);
+  for (long row = firstFrom(edge.my - high, centre.y()); row <= last_row; ++row) {
+    const double dy = centre.y() + static_cast<double>(row) * cell_size_ - edge.my;
+    for (long column = first_column; column <= last_column; ++column) {
+      const double dx = centre.x() + static_cast<double>(column) * cell_size_ - edge.mx;
+      const double t = std::clamp((dx * edge.hx + dy * edge.hy) / half_squared, -1.0, 1.0);
+      const double distance_squared = squared(dx - t * edge.hx) + squared(dy - t * edge.hy);
+      if (distance_squared > reach * reach) continue;
+      const auto cell = static_cast<std::uint32_t>(row * columns_ + column);
+      near_[cell] = std::min(near_[cell], static_cast<float>(std::sqrt(distance_squared)));
+      pairs->push_back({cell, e});
     }
   }
+}
+
+/// The pairs by cell (counting sort).
+void FootprintIndex::list(const std::vector<CellEdge>& pairs, const Checkpoint& checkpoint) {
   starts_.assign(states_.size() + 1, 0);
-  for (const auto& pair : pairs) ++starts_[pair.first + 1];
+  for (const CellEdge& pair : pairs) ++starts_[pair.cell + 1];
   for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
   listed_.resize(pairs.size());
   std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
-  for (const auto& pair : pairs) listed_[next[pair.first]++] = pair.second;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (i % kPairsAtOnce == 0) checkpoint();
+    listed_[next[pairs[i].cell]++] = pairs[i].edge;
+  }
 }
 
 /// Beyond the reach of the lists, bounds `near_` from below by a chamfer distance transform from the cells that hold an

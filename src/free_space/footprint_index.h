@@ -15,8 +15,7 @@ namespace external_command {
 struct Frame {
   double x, y, cos, sin;
 
-  explicit Frame(const Pose2d& pose)
-      : x(pose.x), y(pose.y), cos(std::cos(pose.heading)), sin(std::sin(pose.heading)) {}
+  explicit Frame(const Pose2d& pose) : x(pose.x), y(pose.y), cos(std::cos(pose.heading)), sin(std::sin(pose.heading)) {}
 
   /// Moves by (forward, left) and turns by the angle whose cosine and sine are given.
   void move(double forward, double left, double turn_cos, double turn_sin) {
@@ -52,7 +51,11 @@ struct FootprintBox {
 /// look-up answers, near them the few edges of the cell are tested exactly. Immutable and thread-safe.
 class FootprintIndex {
  public:
-  FootprintIndex(const VehicleParams& vehicle, double margin, const Region& region, const Point2d& origin);
+  /// @param checkpoint  called now and then while the index is made: a large region takes a second.
+  /// @throws InvalidRequest  the region has too many edges to be kept in memory.
+  FootprintIndex(
+      const VehicleParams& vehicle, double margin, const Region& region, const Point2d& origin,
+      const Checkpoint& checkpoint = [] {});
 
   const LocalObstacles& obstacles() const { return obstacles_; }
   const FootprintBox& box() const { return box_; }
@@ -96,6 +99,9 @@ class FootprintIndex {
   const BoundingBox& extent() const { return extent_; }
 
  private:
+  static constexpr double kBeyond =
+      0.25;  ///< edges are listed this far beyond the reach, so that room can be measured [m]
+
   enum class State : std::uint8_t { kFree, kFilled };
 
   /// An edge as middle and half, which is what the separating axes need.
@@ -103,11 +109,18 @@ class FootprintIndex {
     double mx, my, hx, hy;
   };
 
+  struct CellEdge {
+    std::uint32_t cell, edge;
+  };
+
   void setExtent();
-  void fillStates();
+  void fillStates(const Checkpoint& checkpoint);
   void fillPolygon(const Polygon& polygon, bool inside);
-  void spreadEdges();
+  void spreadEdges(const Checkpoint& checkpoint);
+  void spread(std::uint32_t edge, std::vector<CellEdge>* pairs);
+  void list(const std::vector<CellEdge>& pairs, const Checkpoint& checkpoint);
   void extendNear();
+  double listReach() const { return reach_ + cell_reach_ + kBeyond; }
   long cellAt(double x, double y) const;
   Point2d cellCentre(long column, long row) const;
   bool edgesAreClear(long cell, const Frame& frame, double cx, double cy) const;
@@ -117,7 +130,7 @@ class FootprintIndex {
   LocalObstacles obstacles_;
   FootprintBox box_;
   double margin_;
-  double reach_;         ///< edges farther from the footprint's centre cannot break the margin [m]
+  double reach_;  ///< edges farther from the footprint's centre cannot break the margin [m]
   BoundingBox extent_;
   BoundingBox axle_bounds_;
   bool outside_is_free_;

@@ -12,14 +12,16 @@
 #include "external_command/core/text.h"
 #include "first_path.h"
 #include "last_check.h"
+#include "steering_ramps.h"
 
 namespace external_command {
 
 namespace {
 
-constexpr double kMaxDistance = 10'000.0;        ///< between start and goals [m]
-constexpr std::size_t kFirstPatience = 150;      ///< trials that make a first path out of what the search found
-constexpr std::size_t kFirstRound = 2000;        ///< search steps for each approach while there are several
+constexpr double kRampsMayTake = 1e-3;       ///< of the margin [m]
+constexpr double kMaxDistance = 10'000.0;    ///< between start and goals [m]
+constexpr std::size_t kFirstPatience = 150;  ///< trials that make a first path out of what the search found
+constexpr std::size_t kFirstRound = 4000;    ///< search steps for each approach while there are several
 constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
 
 /// One way to end at a goal: drive to `query.goal`, then along `tail`.
@@ -42,6 +44,11 @@ std::string describe(const std::string& what, const Pose2d& pose, const Collisio
               metres(collision.depth), " near ", at(collision.at), ", the margin of ", metres(margin), " included");
 }
 
+/// The goals are numbered only where there are several.
+std::string nameOf(std::size_t goal, const std::vector<Pose2d>& goals) {
+  return goals.size() > 1 ? text("goal ", goal) : "the goal";
+}
+
 /// One call of plan(): everything in the frame around the start.
 class Planning {
  public:
@@ -53,10 +60,10 @@ class Planning {
         origin_(start.position()),
         start_(local(start)),
         stop_(cancel, after(begin_, params.time_budget)),
-        index_(vehicle, params.margin, region, origin_),
+        index_(vehicle, params.margin, region, origin_, [this] { throwIfStopped(); }),
         scene_{index_, vehicle.min_turning_radius, {params.gear_change_cost, 1.0, params.reverse_factor}} {
     if (const auto collision = probeCollision(index_, start_)) {
-      throw StartBlocked(describe("start", start, *collision, params.margin));
+      throw StartBlocked(describe("the start", start, *collision, params.margin));
     }
     addApproaches(goals);
   }
@@ -77,6 +84,14 @@ class Planning {
   }
 
  private:
+  /// @throws Cancelled, PlanningTimeout
+  void throwIfStopped() const {
+    stop_.cancel().throwIfCancelled();
+    if (!stop_.isReached()) return;
+    throw PlanningTimeout(text("the obstacles are so many that ", params_.time_budget,
+                               " s (time_budget) did not suffice to take them in; give a smaller region"));
+  }
+
   Pose2d local(const Pose2d& pose) const { return {pose.x - origin_.x(), pose.y - origin_.y(), pose.heading}; }
 
   void addApproaches(const std::vector<Pose2d>& goals) {
@@ -84,28 +99,31 @@ class Planning {
     for (std::size_t i = 0; i < goals.size(); ++i) {
       const Pose2d goal = local(goals[i]);
       if (const auto collision = probeCollision(index_, goal)) {
-        const std::string name = goals.size() > 1 ? text("goal ", i) : "goal";
-        blocked += (blocked.empty() ? "" : "; ") + describe(name, goals[i], *collision, params_.margin);
+        blocked += (blocked.empty() ? "" : "; ") + describe(nameOf(i, goals), goals[i], *collision, params_.margin);
         continue;
       }
       if (params_.straight_last <= 0.0) {
         approaches_.push_back({i, {start_, goal, 0}, {}});
         continue;
       }
-      for (const int gear : {1, -1}) addStraightApproach(i, goal, gear, &blocked);
+      if (addStraightApproaches(i, goal)) continue;
+      blocked +=
+          text(blocked.empty() ? "" : "; ", nameOf(i, goals), " ", at(goals[i]), " has no free straight stretch of ",
+               metres(params_.straight_last), " behind or ahead of it to end with (straight_last)");
     }
     if (approaches_.empty()) throw GoalBlocked(blocked);
   }
 
-  void addStraightApproach(std::size_t goal_index, const Pose2d& goal, int gear, std::string* blocked) {
-    const ArcSegment tail{gear * params_.straight_last, 0.0};
-    const ArcSegment back{-tail.length, 0.0};
-    if (index_.keepsMargin(goal, back)) {
+  /// False if the last stretch is blocked in both gears.
+  bool addStraightApproaches(std::size_t goal_index, const Pose2d& goal) {
+    const std::size_t before = approaches_.size();
+    for (const int gear : {1, -1}) {
+      const ArcSegment tail{gear * params_.straight_last, 0.0};
+      const ArcSegment back{-tail.length, 0.0};
+      if (!index_.keepsMargin(goal, back)) continue;
       approaches_.push_back({goal_index, {start_, advance(goal, back), gear}, {tail}});
-      return;
     }
-    *blocked += text(blocked->empty() ? "" : "; ", "goal ", goal_index, " has no straight free ",
-                     metres(params_.straight_last), gear > 0 ? " behind it" : " ahead of it", " (straight_last)");
+    return approaches_.size() > before;
   }
 
   /// What the search covers: all obstacles and room to turn around them.
@@ -149,8 +167,16 @@ class Planning {
   }
 
   std::string whyNone(const std::string& why) const {
-    return text("no path from ", at(Pose2d{origin_.x(), origin_.y(), start_.heading}), " to any of ",
-                approaches_.size(), " approaches of the goal: ", why);
+    const Pose2d start{origin_.x(), origin_.y(), start_.heading};
+    return text("no path from the start ", at(start), " to ", theGoals(), " with a margin of ", metres(params_.margin),
+                ": ", why);
+  }
+
+  std::string theGoals() const {
+    const auto sameGoal = [&](const Approach& other) { return other.goal_index == approaches_[0].goal_index; };
+    if (!std::all_of(approaches_.begin(), approaches_.end(), sameGoal)) return "any of the free goals";
+    Pose2d goal = goalOf(approaches_[0]);
+    return text("the goal ", at(Pose2d{goal.x + origin_.x(), goal.y + origin_.y(), goal.heading}));
   }
 
   void consider(const Approach& approach, const Arcs& arcs, Solution* best) const {
@@ -191,6 +217,7 @@ class Planning {
     const Arcs& tail = solution.approach->tail;
     arcs.insert(arcs.end(), tail.begin(), tail.end());
     arcs = merged(arcs);
+    if (params_.continuous_curvature) arcs = withRamps(arcs);
     FreeSpaceResult result;
     result.path = sampleArcs(start_, arcs, params_.spacing);
     const Pose2d goal = goalOf(*solution.approach);
@@ -204,6 +231,16 @@ class Planning {
     result.min_clearance = check.min_clearance;
     result.reverse_length = reverseLength(result.path);
     return result;
+  }
+
+  Arcs withRamps(const Arcs& arcs) const {
+    const PathDemands demands{start_, endOf(start_, arcs), vehicle_.maxKappa(), params_.spacing};
+    const auto keepsClear = [&](const Arcs& ramped) {
+      stop_.cancel().throwIfCancelled();
+      const LastCheck check = checkPath(sampleArcs(start_, ramped, params_.spacing), demands, index_);
+      return !check.fault && check.min_clearance >= params_.margin - kRampsMayTake;
+    };
+    return withSteeringRamps(start_, arcs, vehicle_, params_.manoeuvre_speed, keepsClear);
   }
 
   Pose2d goalOf(const Approach& approach) const { return endOf(approach.query.goal, approach.tail); }
@@ -225,6 +262,7 @@ class Planning {
       point.y += origin_.y();
       point.speed = vehicle_.max_speed;
     }
+    if (params_.continuous_curvature) limitSteering(vehicle_, path);
     limitSpeeds(vehicle_, path);
   }
 
@@ -240,14 +278,14 @@ class Planning {
 };
 
 void requireUsable(const Pose2d& start, const std::vector<Pose2d>& goals) {
-  if (!start.isFinite()) throw InvalidRequest("start is not finite");
+  if (!start.isFinite()) throw InvalidRequest("the start is not finite");
   if (goals.empty()) throw InvalidRequest("there is no goal; give at least one");
   for (std::size_t i = 0; i < goals.size(); ++i) {
-    if (!goals[i].isFinite()) throw InvalidRequest(text("goal ", i, " is not finite"));
+    if (!goals[i].isFinite()) throw InvalidRequest(nameOf(i, goals) + " is not finite");
     const double distance = (goals[i].position() - start.position()).norm();
     if (distance > kMaxDistance) {
-      throw InvalidRequest(text("goal ", i, " ", at(goals[i]), " is ", metres(distance), " from the start ", at(start),
-                                "; the limit is ", metres(kMaxDistance)));
+      throw InvalidRequest(text(nameOf(i, goals), " ", at(goals[i]), " is ", metres(distance), " from the start ",
+                                at(start), "; the limit is ", metres(kMaxDistance)));
     }
   }
 }

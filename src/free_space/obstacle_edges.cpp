@@ -3,9 +3,14 @@
 
 #include <cmath>
 
+#include "external_command/core/error.h"
+#include "external_command/core/text.h"
+
 namespace external_command {
 
 namespace {
+
+constexpr std::size_t kMaxEdges = 2'000'000;  ///< bounds the memory
 
 /// Reads cells by index; beyond the grid everything is unknown.
 class GridView {
@@ -34,12 +39,20 @@ class GridView {
 
 }  // namespace
 
-LocalObstacles::LocalObstacles(const Region& region, const Point2d& origin) : region_(&region), origin_(origin) {
+LocalObstacles::LocalObstacles(const Region& region, const Point2d& origin, const Checkpoint& checkpoint)
+    : region_(&region), origin_(origin) {
   if (region.drivable()) addPolygon(*region.drivable(), kDrivableSource);
   for (std::size_t i = 0; i < region.nonDrivable().size(); ++i) {
     addPolygon(region.nonDrivable()[i], static_cast<int>(i));
   }
-  if (region.grid()) addGrid(*region.grid());
+  requireFewEdges();
+  if (region.grid()) addGrid(*region.grid(), checkpoint);
+}
+
+void LocalObstacles::requireFewEdges() const {
+  if (edges_.size() <= kMaxEdges) return;
+  throw InvalidRequest(text("the borders of the region's obstacles have more than ", kMaxEdges,
+                            " edges; give a smaller region or a coarser grid"));
 }
 
 void LocalObstacles::addPolygon(const Polygon& polygon, int source) {
@@ -49,7 +62,7 @@ void LocalObstacles::addPolygon(const Polygon& polygon, int source) {
   }
 }
 
-void LocalObstacles::addGrid(const OccupancyGrid& grid) {
+void LocalObstacles::addGrid(const OccupancyGrid& grid, const Checkpoint& checkpoint) {
   const GridView view(grid);
   const Point2d along = grid.resolution * unitVector(grid.origin.heading);
   const Point2d across(-along.y(), along.x());
@@ -57,6 +70,8 @@ void LocalObstacles::addGrid(const OccupancyGrid& grid) {
   // Borders between a free and a blocked cell, joined to runs: first the lines along x, then those along y.
   const auto addLines = [&](long lines, long cells, const Point2d& line_step, const Point2d& cell_step, auto differs) {
     for (long line = 0; line <= lines; ++line) {
+      checkpoint();
+      requireFewEdges();
       for (long cell = 0; cell < cells;) {
         const long begin = cell;
         while (cell < cells && differs(line, cell)) ++cell;
@@ -65,8 +80,8 @@ void LocalObstacles::addGrid(const OccupancyGrid& grid) {
           continue;
         }
         const Point2d base = corner + static_cast<double>(line) * line_step;
-        edges_.push_back({base + static_cast<double>(begin) * cell_step, base + static_cast<double>(cell) * cell_step,
-                          kGridSource});
+        edges_.push_back(
+            {base + static_cast<double>(begin) * cell_step, base + static_cast<double>(cell) * cell_step, kGridSource});
       }
     }
   };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -8,6 +9,9 @@
 #include "external_command/free_space/region.h"
 
 namespace external_command {
+
+/// Called every few milliseconds of a long piece of work; throws to end it.
+using Checkpoint = std::function<void()>;
 
 /// Who an edge belongs to: the index of a non-drivable polygon, or one of these.
 enum EdgeSource : int { kDrivableSource = -1, kGridSource = -2 };
@@ -22,7 +26,8 @@ struct ObstacleEdge {
 /// The region around a local origin, as filled shapes bordered by edges. Keeps a reference to `region`.
 class LocalObstacles {
  public:
-  LocalObstacles(const Region& region, const Point2d& origin);
+  /// @throws InvalidRequest  the borders have too many edges to be kept in memory.
+  LocalObstacles(const Region& region, const Point2d& origin, const Checkpoint& checkpoint);
 
   const std::vector<ObstacleEdge>& edges() const { return edges_; }
   const Region& region() const { return *region_; }
@@ -39,7 +44,8 @@ class LocalObstacles {
 
  private:
   void addPolygon(const Polygon& polygon, int source);
-  void addGrid(const OccupancyGrid& grid);
+  void addGrid(const OccupancyGrid& grid, const Checkpoint& checkpoint);
+  void requireFewEdges() const;
 
   const Region* region_;
   Point2d origin_;

@@ -12,13 +12,33 @@ namespace {
 
 constexpr double kCheckStep = 0.06;     ///< most that a corner moves between two checks of the search [m]
 constexpr double kShortestStep = 0.15;  ///< of a stride: shorter ways to an obstacle are no step
+constexpr double kRootRange = 3.0;      ///< how far the arcs at a root are followed, in turning radii
 constexpr std::uint64_t kNoKey = ~0ULL;
 constexpr std::size_t kFirstTable = 4096;  ///< a power of two, like all sizes of the table
 
 }  // namespace
 
+Reach::Reach(const Scene& scene, const Pose2d& from, double range) : range_(static_cast<float>(range)) {
+  for (const int steer : {-1, 0, 1}) {
+    for (const int gear : {1, -1}) {
+      const double free = scene.index.freeLength(from, {gear * range, steer / scene.radius}, kCheckStep);
+      free_[index(steer, gear)] = static_cast<float>(free);
+    }
+  }
+}
+
+bool Reach::allows(const ArcSegment& arc) const {
+  const int steer = arc.kappa > 0.0 ? 1 : arc.kappa < 0.0 ? -1 : 0;
+  const float free = free_[index(steer, gearOf(arc))];
+  return free >= range_ || std::abs(arc.length) <= static_cast<double>(free) + kCheckStep;
+}
+
 SearchTree::SearchTree(const Scene& scene, const Pose2d& root, int root_gear, const DistanceMap& map)
-    : scene_(scene), root_(root), root_gear_(root_gear), map_(map) {}
+    : scene_(scene),
+      root_(root),
+      root_gear_(root_gear),
+      root_reach_(scene, root, kRootRange * scene.radius),
+      map_(map) {}
 
 void SearchTree::restart(const SearchLevel& level) {
   level_ = level;
@@ -27,20 +47,21 @@ void SearchTree::restart(const SearchLevel& level) {
   keys_.assign(kFirstTable, kNoKey);
   values_.assign(kFirstTable, -1);
   advanced_ = 0;
-  Node root{root_, {}, 0.0, map_.at(root_.x, root_.y), -1, root_gear_};
+  Node root{root_, {}, 0.0, 0.0, map_.at(root_.x, root_.y), -1, root_gear_};
   root.arrival = Arrival::kFree;
   nodes_.push_back(root);
   push(0);
 }
 
 void SearchTree::push(int node) {
-  queue_.push_back({at(node).g + level_.weight * at(node).h, node});
+  queue_.push_back({at(node).rank + level_.weight * at(node).h, node});
   std::push_heap(queue_.begin(), queue_.end());
 }
 
 std::uint64_t SearchTree::keyOf(const Pose2d& pose, int gear) const {
   const auto cell = [&](double value) {
-    return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(value / level_.cell + level_.shift)) + (1 << 20));
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(value / level_.cell + level_.shift)) +
+                                      (1 << 20));
   };
   const double turns = 2.0 * M_PI / level_.heading_cell;
   const auto heading = static_cast<std::uint64_t>(
@@ -80,7 +101,7 @@ std::optional<Connection> SearchTree::step(SearchTree* other, double* max_cost) 
     if (!at(index).evaluated) {
       joinRoot(index, other, max_cost, &found);
       // Now that its heuristic is known better, another node may be the best.
-      if (!queue_.empty() && at(index).g + level_.weight * at(index).h > queue_.front().f) {
+      if (!queue_.empty() && at(index).rank + level_.weight * at(index).h > queue_.front().f) {
         push(index);
         return found;
       }
@@ -97,6 +118,7 @@ std::optional<Connection> SearchTree::step(SearchTree* other, double* max_cost) 
 void SearchTree::joinRoot(int index, SearchTree* other, double* max_cost, std::optional<Connection>* found) {
   Node& node = at(index);
   node.evaluated = true;
+  node.reach = Reach(scene_, node.pose, level_.stride);
   WordSet words;
   WordQuery query;
   query.radius = scene_.radius;
@@ -128,6 +150,7 @@ void SearchTree::tryWords(int index, SearchTree* other, int other_index, WordSet
   while (words->size() > 0) {
     const SteeringWord word = words->takeCheapest();
     if (fixed_cost + word.cost >= *max_cost) return;
+    if (!mayJoin(index, *other, other_index, word)) continue;
     if (!isFree(scene_.index, at(index).pose, word, kCheckStep)) continue;
     if (!confirm(index) || !other->confirm(other_index)) return;
     if (!keepsMargin(scene_.index, at(index).pose, word)) continue;
@@ -135,6 +158,14 @@ void SearchTree::tryWords(int index, SearchTree* other, int other_index, WordSet
     *found = Connection{index, other_index, word};
     return;
   }
+}
+
+/// A look at what is already known about the word's first and last arc.
+bool SearchTree::mayJoin(int index, const SearchTree& other, int other_index, const SteeringWord& word) const {
+  if (word.size == 0) return true;
+  const ArcSegment &first = word.arcs[0], &last = word.arcs[static_cast<std::size_t>(word.size) - 1];
+  const Reach& arrival = other_index == 0 ? other.root_reach_ : other.at(other_index).reach;
+  return at(index).reach.allows(first) && arrival.allows({-last.length, last.kappa});
 }
 
 /// Checks the way from the root finely. A node that fails, and later its children, are out.
@@ -154,15 +185,14 @@ bool SearchTree::confirm(int index) {
 }
 
 void SearchTree::grow(int index, double max_cost) {
-  const Pose2d pose = at(index).pose;
   const ArcSegment arrival = at(index).arc;
+  const Reach reach = at(index).reach;
   for (const int steer : {-1, 0, 1}) {
     for (const int gear : {1, -1}) {
-      const ArcSegment arc{gear * level_.stride, steer / scene_.radius};
+      const double free = std::min(reach.along(steer, gear), level_.stride);
+      const ArcSegment arc{gear * free, steer / scene_.radius};
       const bool is_way_back = arrival.length * arc.length < 0.0 && arrival.kappa == arc.kappa;
-      if (is_way_back) continue;
-      const double free = scene_.index.freeLength(pose, arc, kCheckStep);
-      if (free >= kShortestStep * level_.stride) addChild(index, {gear * free, arc.kappa}, max_cost);
+      if (!is_way_back && free >= kShortestStep * level_.stride) addChild(index, arc, max_cost);
     }
   }
 }
@@ -172,17 +202,19 @@ void SearchTree::addChild(int parent_index, const ArcSegment& arc, double max_co
   const Pose2d pose = advance(parent.pose, arc);
   const int gear = gearOf(arc);
   const double driving = scene_.cost.ofArc(arc.length);
-  const double g = parent.g + driving + (parent.gear == -gear ? scene_.cost.gear_change_cost : 0.0);
+  const double changing = parent.gear == -gear ? scene_.cost.gear_change_cost : 0.0;
+  const double g = parent.g + driving + changing;
+  const double rank = parent.rank + driving + level_.gear_weight * changing;
   const double h = std::max(map_.at(pose.x, pose.y), parent.h - driving);
   if (!(g + h < max_cost)) return;
   growTable();
   int* slot = slotOf(keyOf(pose, gear));
   if (*slot >= 0) {
-    if (at(*slot).g <= g + 1e-6) return;
+    if (at(*slot).rank <= rank + 1e-6) return;
     at(*slot).closed = true;
   }
   *slot = static_cast<int>(nodes_.size());
-  nodes_.push_back({pose, arc, g, h, parent_index, gear});
+  nodes_.push_back({pose, arc, g, rank, h, parent_index, gear});
   push(*slot);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -16,6 +18,7 @@ struct SearchLevel {
   double heading_cell;  ///< [rad]
   double stride;        ///< length of a step [m]
   int max_nodes;        ///< then the level is given up
+  double gear_weight;   ///< of gear changes in the order of the search: low values reach far places sooner
   double weight = 1.5;  ///< of the heuristic: finds a path sooner, at some cost that the improvement wins back
   double shift = 0.0;   ///< of the cells' borders, part of a cell
 };
@@ -25,6 +28,28 @@ struct Connection {
   int node = 0;        ///< of the tree that made it
   int other_node = 0;  ///< of the other tree
   SteeringWord word;   ///< from `node` to `other_node`
+};
+
+/// How far the six arcs (full lock either way or straight, in either gear) can be driven from a pose.
+class Reach {
+ public:
+  Reach() = default;
+
+  /// Looks no farther than `range` [m].
+  Reach(const Scene& scene, const Pose2d& from, double range);
+
+  double along(int steer, int gear) const { return static_cast<double>(free_[index(steer, gear)]); }
+
+  /// False only for an arc that is known to meet an obstacle. Its curvature must be that of full lock, or 0.
+  bool allows(const ArcSegment& arc) const;
+
+ private:
+  static std::size_t index(int steer, int gear) {
+    return static_cast<std::size_t>(2 * (steer + 1) + (gear > 0 ? 1 : 0));
+  }
+
+  std::array<float, 6> free_{};
+  float range_ = 0.0F;
 };
 
 /// Hybrid A* (D. Dolgov et al., "Path planning for autonomous vehicles in unknown semi-structured environments", 2010)
@@ -40,6 +65,9 @@ class SearchTree {
 
   /// Forgets all nodes and begins anew.
   void restart(const SearchLevel& level);
+
+  /// How many nodes are left to grow.
+  std::size_t waiting() const { return queue_.size(); }
 
   /// Nothing left to grow.
   bool isEmpty() const { return queue_.empty(); }
@@ -62,13 +90,15 @@ class SearchTree {
   struct Node {
     Pose2d pose;
     ArcSegment arc;  ///< from the parent
-    double g;
-    double h;
+    double g;        ///< cost from the root
+    double rank;     ///< the same with weighted gear changes
+    double h;        ///< estimate of the cost that is left
     int parent;
     int gear;
-    bool evaluated = false;  ///< h is that of the words
+    bool evaluated = false;  ///< h is that of the words, and `reach` is known
     bool closed = false;
     Arrival arrival = Arrival::kUnknown;
+    Reach reach{};
   };
 
   struct Entry {
@@ -82,6 +112,7 @@ class SearchTree {
   void joinAdvanced(int node, SearchTree* other, double* max_cost, std::optional<Connection>* found);
   void tryWords(int node, SearchTree* other, int other_node, WordSet* words, double* max_cost,
                 std::optional<Connection>* found);
+  bool mayJoin(int node, const SearchTree& other, int other_node, const SteeringWord& word) const;
   bool confirm(int node);
   void grow(int node, double max_cost);
   void addChild(int parent, const ArcSegment& arc, double max_cost);
@@ -94,13 +125,14 @@ class SearchTree {
   const Scene& scene_;
   Pose2d root_;
   int root_gear_;
+  Reach root_reach_;
   const DistanceMap& map_;
   SearchLevel level_{};
   std::vector<Node> nodes_;
   std::vector<Entry> queue_;
   std::vector<std::uint64_t> keys_;  ///< hash table with open addressing: cell ...
   std::vector<int> values_;          ///< ... to node
-  int advanced_ = 0;  ///< node with the smallest h
+  int advanced_ = 0;                 ///< node with the smallest h
 };
 
 }  // namespace external_command

@@ -21,7 +21,7 @@ class TwoWaySearch {
   };
 
   struct Limits {
-    std::size_t max_steps;  ///< nodes taken from the queue of each end
+    std::size_t max_steps;                                      ///< nodes taken from the queues of both ends
     double max_cost = std::numeric_limits<double>::infinity();  ///< dearer paths are not looked for [m]
     std::function<bool()> stop;                                 ///< asked after every step
   };
@@ -45,6 +45,7 @@ class TwoWaySearch {
   const Arcs& arcs() const { return arcs_; }
 
  private:
+  std::size_t sideOf(std::size_t step) const;
   SearchLevel levelFor(std::size_t i, const Variant& variant) const;
   void keep(const Connection& connection, bool from_start);
 

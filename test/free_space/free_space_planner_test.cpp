@@ -50,6 +50,23 @@ std::string messageOf(const std::function<void()>& call) {
   return "nothing was thrown";
 }
 
+/// A square grid of cells of 10 cm, each `every`-th of which is an obstacle, but for a free street along y = 0.
+Region dottedGrid(std::uint32_t side, std::size_t every) {
+  Region::Parts parts;
+  parts.grid.emplace();
+  OccupancyGrid& grid = *parts.grid;
+  grid.resolution = 0.1;
+  grid.width = side + 1;  // so that the dots of two rows do not line up
+  grid.height = side;
+  grid.origin = {-0.05 * side, -0.05 * side, 0.0};
+  grid.cells.assign(static_cast<std::size_t>(grid.width) * grid.height, 0);
+  for (std::size_t i = 0; i < grid.cells.size(); i += every) {
+    const double row = static_cast<double>(i / grid.width);
+    if (std::abs(row - 0.5 * side) > 40.0) grid.cells[i] = 100;
+  }
+  return Region(std::move(parts));
+}
+
 TEST(FreeSpacePlanner, ParksBetweenCarsAtTheKerb) {
   for (const double slack : {2.5, 1.0, 0.6}) {
     const ParkingWorld world = parallelSlot(slack);
@@ -123,6 +140,51 @@ TEST(FreeSpacePlanner, ImprovesThePathWithMoreWork) {
   EXPECT_NEAR(result.cost, result.length + 3.0 * result.gear_changes, 1e-6);
   params.planner = "hybrid_astar";
   EXPECT_LT(result.cost, planned(world, params).cost);
+}
+
+/// The fastest that the front wheels have to turn while the vehicle drives as fast as the points allow [rad/s].
+double fastestSteering(const Path& path, const VehicleParams& vehicle) {
+  double fastest = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    if (path[i].direction != path[i - 1].direction) continue;
+    const double turned =
+        std::atan(vehicle.wheelbase * path[i].kappa) - std::atan(vehicle.wheelbase * path[i - 1].kappa);
+    const double speed = std::min(path[i].speed, path[i - 1].speed);
+    fastest = std::max(fastest, std::abs(turned) * speed / (path[i].s - path[i - 1].s));
+  }
+  return fastest;
+}
+
+double largestJump(const Path& path) {
+  double largest = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    if (path[i].direction == path[i - 1].direction)
+      largest = std::max(largest, std::abs(path[i].kappa - path[i - 1].kappa));
+  }
+  return largest;
+}
+
+TEST(FreeSpacePlanner, SteersGraduallyWhereThatIsWished) {
+  FreeSpaceParams params = quickParams();
+  params.continuous_curvature = true;
+  for (const ParkingWorld& world : {parallelSlot(1.5), parallelSlot(0.7), bay(0.4), twoYards(1.0)}) {
+    const FreeSpaceResult result = planned(world, params);
+    EXPECT_TRUE(isValid(result, world, params));
+    EXPECT_LT(fastestSteering(result.path, world.vehicle), 1.02 * world.vehicle.max_steering_rate);
+    EXPECT_LT(largestJump(result.path), 0.6 * largestJump(planned(world, quickParams()).path));
+  }
+}
+
+TEST(FreeSpacePlanner, SteersGraduallyAtTheManoeuvreSpeedWhereThereIsRoom) {
+  ParkingWorld world = parallelSlot(1.5);
+  world.region = Region();
+  world.goal = {world.start.x + 20.0, world.start.y + 6.0, world.start.heading + 0.7};
+  FreeSpaceParams params = quickParams();
+  params.continuous_curvature = true;
+  const Path path = planned(world, params).path;
+  EXPECT_TRUE(joins(path, world.start, world.goal));
+  const double ramp = 0.05 * world.vehicle.max_steering_rate / (params.manoeuvre_speed * world.vehicle.wheelbase);
+  EXPECT_LT(largestJump(path), 1.5 * ramp);
 }
 
 TEST(FreeSpacePlanner, GivesTheSamePathForTheSameSeed) {
@@ -236,6 +298,67 @@ TEST(FreeSpacePlanner, StopsSoonAfterACancel) {
                Cancelled);
   other.join();
   EXPECT_LT(std::chrono::steady_clock::now() - cancelled, std::chrono::milliseconds(50));
+}
+
+TEST(FreeSpacePlanner, StopsSoonAfterACancelWhileItTakesInAHugeGrid) {
+  const ParkingWorld world{smallCar(), {0, 0, 0}, {20, 0, 0}, dottedGrid(4000, 37)};
+  const CancelSource source;
+  std::chrono::steady_clock::time_point cancelled;
+  std::thread other([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    cancelled = std::chrono::steady_clock::now();
+    source.cancel();
+  });
+  EXPECT_THROW(
+      FreeSpacePlanner(world.vehicle, quickParams()).plan(world.start, {world.goal}, world.region, source.token()),
+      Cancelled);
+  const auto end = std::chrono::steady_clock::now();
+  other.join();
+  EXPECT_LT(end - cancelled, std::chrono::milliseconds(50));
+}
+
+TEST(FreeSpacePlanner, KeepsItsTimeBudgetWhileItTakesInAHugeGrid) {
+  const ParkingWorld world{smallCar(), {0, 0, 0}, {20, 0, 0}, dottedGrid(4000, 37)};
+  FreeSpaceParams params = quickParams();
+  params.time_budget = 0.02;
+  const std::string message = messageOf<PlanningTimeout>([&] { planned(world, params); });
+  EXPECT_NE(message.find("0.02 s (time_budget)"), std::string::npos) << message;
+}
+
+TEST(FreeSpacePlanner, RefusesAGridWithMoreEdgesThanItKeepsInMemory) {
+  const ParkingWorld world{smallCar(), {0, 0, 0}, {20, 0, 0}, dottedGrid(2500, 2)};
+  const std::string message = messageOf<InvalidRequest>([&] { planned(world, quickParams()); });
+  EXPECT_NE(message.find("a coarser grid"), std::string::npos) << message;
+}
+
+TEST(FreeSpacePlanner, NumbersTheGoalsOnlyWhereThereAreSeveral) {
+  const ParkingWorld world = bay(1.0);
+  const FreeSpacePlanner planner(world.vehicle, quickParams());
+  Pose2d blocked = world.goal, other = world.goal;
+  blocked.x += 1.0, other.x -= 1.0;
+  const auto ask = [&](const std::vector<Pose2d>& goals) { planner.plan(world.start, goals, world.region, {}); };
+  EXPECT_EQ(messageOf<GoalBlocked>([&] { ask({blocked}); }).find("the goal ("), 0U);
+  const std::string several = messageOf<GoalBlocked>([&] { ask({blocked, other}); });
+  EXPECT_EQ(several.find("goal 0 ("), 0U) << several;
+  EXPECT_NE(several.find("; goal 1 ("), std::string::npos) << several;
+  EXPECT_EQ(messageOf<InvalidRequest>([&] { ask({{1e6, 0, 0}}); }).find("the goal (1000000.00, 0.00, 0.000) is"), 0U);
+}
+
+TEST(FreeSpacePlanner, SaysWhenNoStraightStretchLeadsToTheGoal) {
+  ParkingWorld world = twoYards(1.0);
+  FreeSpaceParams params = quickParams();
+  params.straight_last = 20.0;
+  const std::string message = messageOf<GoalBlocked>([&] { planned(world, params); });
+  EXPECT_NE(message.find("no free straight stretch of 20.00 m"), std::string::npos) << message;
+}
+
+TEST(FreeSpacePlanner, SaysSoonThatNothingLeadsOutOfARoom) {
+  Region::Parts parts;
+  for (const double x : {14.0, 38.0}) parts.non_drivable.push_back(box({x, 0.0}, 0.5, 20.0));
+  for (const double y : {-10.0, 10.0}) parts.non_drivable.push_back(box({26.0, y}, 24.5, 0.5));
+  const ParkingWorld world{smallCar(), {0, 0, 0}, {25, 0, 0}, Region(parts)};
+  const std::string message = messageOf<NoPath>([&] { planned(world, quickParams()); });
+  EXPECT_NE(message.find("to the goal (25.00, 0.00, 0.000)"), std::string::npos) << message;
 }
 
 TEST(FreeSpacePlanner, RefusesARequestWithoutGoalOrWithNumbersThatAreNone) {

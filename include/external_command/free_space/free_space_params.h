@@ -23,8 +23,10 @@ struct FreeSpaceParams {
   double spacing = 0.05;          ///< between points of the result, at most, [0.01, 1] [m]
   double straight_last = 0.0;     ///< the path ends with a straight stretch at least this long, [0, 20] [m]
 
-  bool continuous_curvature = false;  ///< between gear changes the steering moves no faster than the vehicle can
-  double manoeuvre_speed = 0.5;       ///< for which that is so, (0, 5] [m/s]
+  /// Between gear changes the curvature changes gradually, and the points' speed limits let the steering keep up. Where
+  /// there is no room for ramps as long as manoeuvre_speed asks for, they are shorter and the limits lower.
+  bool continuous_curvature = false;
+  double manoeuvre_speed = 0.5;  ///< at which the steering keeps up where there is room, (0, 5] [m/s]
 
   /// @throws InvalidParameter  a value is out of range: the text names key, value and range.
   void validate() const;
