@@ -11,7 +11,7 @@ namespace {
 constexpr double kLowPrice = 120.0;   ///< of a whole area below kLowCoverage, in lengths of a perfect path
 constexpr double kShortPrice = 10.0;  ///< the same below the target
 constexpr double kExtraPrice = 1.0;   ///< the same beyond the target
-constexpr double kLongPrice = 4.0;    ///< of length beyond what is usual for the size of the field
+constexpr double kLongPrice = 6.0;    ///< of length beyond what is usual for the size of the field
 
 /// Length, as multiple of a perfect path's, that the last corners are not worth: a field of a few hundred swath widths
 /// squared is mostly corners and turns.

@@ -14,7 +14,7 @@ namespace {
 constexpr double kTurn = 1.1;        ///< price of a turn, in half circles
 constexpr double kFewerTurns = 5.0;  ///< how much dearer a turn is where few are wanted
 constexpr std::size_t kHeadingsKept = 4;
-constexpr double kLapsInAll = 6e4;  ///< how many laps are tried: fewer on large fields, where each takes longer
+constexpr double kLapsInAll = 4e4;  ///< how many laps are tried: fewer on large fields, where each takes longer
 
 double turnPrice(const Field& field) {
   const double price = kTurn * M_PI * field.radius() + 2.0 * field.params().gear_change_cost;

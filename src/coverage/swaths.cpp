@@ -13,7 +13,7 @@ namespace external_command {
 namespace {
 
 constexpr int kBins = 6;        ///< across a swath
-constexpr int kCoarseBins = 3;  ///< the same, in the search for a heading
+constexpr int kCoarseBins = 2;  ///< the same, in the search for a heading
 constexpr double kCoarseSpots = 20e3;
 constexpr int kHeadings = 24;          ///< tried, besides those of the border's edges
 constexpr std::size_t kPromising = 8;  ///< headings that are looked at again, with lines in between
