@@ -142,51 +142,6 @@ TEST(FreeSpacePlanner, ImprovesThePathWithMoreWork) {
   EXPECT_LT(result.cost, planned(world, params).cost);
 }
 
-/// The fastest that the front wheels have to turn while the vehicle drives as fast as the points allow [rad/s].
-double fastestSteering(const Path& path, const VehicleParams& vehicle) {
-  double fastest = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    if (path[i].direction != path[i - 1].direction) continue;
-    const double turned =
-        std::atan(vehicle.wheelbase * path[i].kappa) - std::atan(vehicle.wheelbase * path[i - 1].kappa);
-    const double speed = std::min(path[i].speed, path[i - 1].speed);
-    fastest = std::max(fastest, std::abs(turned) * speed / (path[i].s - path[i - 1].s));
-  }
-  return fastest;
-}
-
-double largestJump(const Path& path) {
-  double largest = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    if (path[i].direction == path[i - 1].direction)
-      largest = std::max(largest, std::abs(path[i].kappa - path[i - 1].kappa));
-  }
-  return largest;
-}
-
-TEST(FreeSpacePlanner, SteersGraduallyWhereThatIsWished) {
-  FreeSpaceParams params = quickParams();
-  params.continuous_curvature = true;
-  for (const ParkingWorld& world : {parallelSlot(1.5), parallelSlot(0.7), bay(0.4), twoYards(1.0)}) {
-    const FreeSpaceResult result = planned(world, params);
-    EXPECT_TRUE(isValid(result, world, params));
-    EXPECT_LT(fastestSteering(result.path, world.vehicle), 1.02 * world.vehicle.max_steering_rate);
-    EXPECT_LT(largestJump(result.path), 0.6 * largestJump(planned(world, quickParams()).path));
-  }
-}
-
-TEST(FreeSpacePlanner, SteersGraduallyAtTheManoeuvreSpeedWhereThereIsRoom) {
-  ParkingWorld world = parallelSlot(1.5);
-  world.region = Region();
-  world.goal = {world.start.x + 20.0, world.start.y + 6.0, world.start.heading + 0.7};
-  FreeSpaceParams params = quickParams();
-  params.continuous_curvature = true;
-  const Path path = planned(world, params).path;
-  EXPECT_TRUE(joins(path, world.start, world.goal));
-  const double ramp = 0.05 * world.vehicle.max_steering_rate / (params.manoeuvre_speed * world.vehicle.wheelbase);
-  EXPECT_LT(largestJump(path), 1.5 * ramp);
-}
-
 TEST(FreeSpacePlanner, GivesTheSamePathForTheSameSeed) {
   const ParkingWorld world = parallelSlot(0.7);
   for (const unsigned threads : {1U, 2U}) {

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "external_command/free_space/free_space_planner.h"
+#include "support/parking_worlds.h"
+#include "support/path_matchers.h"
+
+namespace external_command {
+namespace {
+
+constexpr double kMarginSlack = 2e-3;  ///< of the margin, that two checks may miss between them [m]
+
+FreeSpaceParams paramsWith(bool continuous_curvature) {
+  FreeSpaceParams params;
+  params.margin = 0.05;
+  params.time_budget = 600.0;  // the iterations bound the work
+  params.improve_budget = 300.0;
+  params.improve_iterations = 1000;
+  params.continuous_curvature = continuous_curvature;
+  return params;
+}
+
+FreeSpaceResult planned(const ParkingWorld& world, const FreeSpaceParams& params) {
+  return FreeSpacePlanner(world.vehicle, params).plan(world.start, {world.goal}, world.region, {});
+}
+
+/// The fastest that the front wheels have to turn while the vehicle drives as fast as the points allow [rad/s].
+double fastestSteering(const Path& path, const VehicleParams& vehicle) {
+  double fastest = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    if (path[i].direction != path[i - 1].direction) continue;
+    const double turned =
+        std::atan(vehicle.wheelbase * path[i].kappa) - std::atan(vehicle.wheelbase * path[i - 1].kappa);
+    const double speed = std::min(path[i].speed, path[i - 1].speed);
+    fastest = std::max(fastest, std::abs(turned) * speed / (path[i].s - path[i - 1].s));
+  }
+  return fastest;
+}
+
+double largestJump(const Path& path) {
+  double largest = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    if (path[i].direction == path[i - 1].direction)
+      largest = std::max(largest, std::abs(path[i].kappa - path[i - 1].kappa));
+  }
+  return largest;
+}
+
+TEST(ContinuousCurvature, SteersGraduallyWhereThatIsWished) {
+  const FreeSpaceParams params = paramsWith(true);
+  for (const ParkingWorld& world : {parallelSlot(1.5), parallelSlot(0.7), bay(0.4), twoYards(1.0)}) {
+    const FreeSpaceResult result = planned(world, params);
+    EXPECT_TRUE(joins(result.path, world.start, world.goal));
+    EXPECT_TRUE(isDrivable(result.path, world.vehicle, {params.spacing}));
+    EXPECT_TRUE(staysClear(result.path, world.vehicle, world.region, params.margin - kMarginSlack));
+    EXPECT_LT(fastestSteering(result.path, world.vehicle), 1.02 * world.vehicle.max_steering_rate);
+    EXPECT_LT(largestJump(result.path), 0.6 * largestJump(planned(world, paramsWith(false)).path));
+  }
+}
+
+TEST(ContinuousCurvature, SteersGraduallyAtTheManoeuvreSpeedWhereThereIsRoom) {
+  ParkingWorld world = parallelSlot(1.5);
+  world.region = Region();
+  world.goal = {world.start.x + 20.0, world.start.y + 6.0, world.start.heading + 0.7};
+  const FreeSpaceParams params = paramsWith(true);
+  const Path path = planned(world, params).path;
+  EXPECT_TRUE(joins(path, world.start, world.goal));
+  const double ramp = 0.05 * world.vehicle.max_steering_rate / (params.manoeuvre_speed * world.vehicle.wheelbase);
+  EXPECT_LT(largestJump(path), 1.5 * ramp);
+}
+
+}  // namespace
+}  // namespace external_command
