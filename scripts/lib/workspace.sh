@@ -77,9 +77,10 @@ ec_configure() {
     ${EC_CMAKE_ARGS-} >"$log" 2>&1 || { cat "$log" >&2 && ec_fail "cmake could not configure $EC_ROOT (see above)"; }
 }
 
-# Installs this package into install/ of the build folder, and builds each package of examples/, with its tests, on that.
+# Installs this package into .install/ of the build folder, and builds each package of examples/, with its tests, on
+# that. Hidden, since roslaunch and rosrun look for files in all other folders of a package, its build folder too.
 ec_build_examples() {
-  local prefix=$EC_BUILD_DIR/install
+  local prefix=$EC_BUILD_DIR/.install
   EC_CMAKE_ARGS="${EC_CMAKE_ARGS-} -DCMAKE_INSTALL_PREFIX=$prefix -DCMAKE_INSTALL_MESSAGE=NEVER" ec_build install
   local example
   for example in $(ec_examples); do
