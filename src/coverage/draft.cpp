@@ -68,7 +68,7 @@ std::vector<Draft> makeDrafts(const Field& field, const CoverageGrid& empty, dou
 
 std::vector<Work> worksOf(const Field& field, Draft draft, double price, double choosy) {
   const SwathPrices prices{price, choosy * turnPrice(field)};
-  for (Work& work : planSwaths(field, prices, draft.headings, &draft.grid).works) draft.works.push_back(work);
+  for (Work& work : planSwaths(field, prices, draft.headings, &draft.grid)) draft.works.push_back(work);
   return std::move(draft.works);
 }
 

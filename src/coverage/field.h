@@ -40,7 +40,6 @@ class Field {
   double width() const { return params_.swath_width; }
   double radius() const { return vehicle_.min_turning_radius; }
   double front() const { return vehicle_.wheelbase + vehicle_.front_overhang; }  ///< rear axle to the nose [m]
-  double reach() const { return reach_; }  ///< rear axle to the farthest corner [m]
 
   bool isFree(const Pose2d& pose) const { return checker_.isFree(pose); }
   bool isFree(const Curve& curve) const;
@@ -65,7 +64,7 @@ class Field {
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   Point2d origin_;
   std::optional<Pose2d> start_;
-  double reach_;
+  double reach_;  ///< rear axle to the farthest corner [m]
   shapes::Shapes free_;
   shapes::Shapes goal_;
   shapes::Shapes workable_;

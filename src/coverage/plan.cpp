@@ -170,7 +170,7 @@ class Planner {
       changed = false;
       CoverageGrid grid = tally_.grid();
       const auto headings = rankHeadings(field_, prices, grid, swathHeadings(field_));
-      for (const Work& work : planSwaths(field_, prices, headings, &grid).works) {
+      for (const Work& work : planSwaths(field_, prices, headings, &grid)) {
         plan_.works.push_back(work);
         const Insertion insertion = cheapestInsertion(&links_, plan_.works, plan_.works.size() - 1, plan_.steps);
         const Curve way = work.curveOf(insertion.step.way);

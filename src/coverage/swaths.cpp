@@ -49,7 +49,7 @@ class SwathSearch {
     return ranked;
   }
 
-  SwathPlan plan(const std::vector<SwathHeading>& headings) const {
+  std::vector<Work> plan(const std::vector<SwathHeading>& headings) const {
     Layout best;
     for (std::size_t i = 0; i < std::min(kFinalists, headings.size()); ++i) {
       field_.poll();
@@ -59,11 +59,8 @@ class SwathSearch {
         if (layout.worth > best.worth) best = layout;
       }
     }
-    SwathPlan plan;
-    if (best.worth <= 0.0) return plan;
-    plan.worth = best.worth;
-    plan.works = lay(Profile(remains_, best.heading, field_.width() / kBins), best.offset);
-    return plan;
+    if (best.worth <= 0.0) return {};
+    return lay(Profile(remains_, best.heading, field_.width() / kBins), best.offset);
   }
 
  private:
@@ -153,11 +150,11 @@ std::vector<SwathHeading> rankHeadings(const Field& field, const SwathPrices& pr
   return SwathSearch(field, prices, grid).rank(headings);
 }
 
-SwathPlan planSwaths(const Field& field, const SwathPrices& prices, const std::vector<SwathHeading>& headings,
-                     CoverageGrid* grid) {
-  SwathPlan plan = SwathSearch(field, prices, *grid).plan(headings);
-  for (const Work& work : plan.works) grid->sweep(work.curveOf(0), field.width());
-  return plan;
+std::vector<Work> planSwaths(const Field& field, const SwathPrices& prices, const std::vector<SwathHeading>& headings,
+                             CoverageGrid* grid) {
+  std::vector<Work> works = SwathSearch(field, prices, *grid).plan(headings);
+  for (const Work& work : works) grid->sweep(work.curveOf(0), field.width());
+  return works;
 }
 
 }  // namespace external_command

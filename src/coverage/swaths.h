@@ -9,12 +9,6 @@
 
 namespace external_command {
 
-/// Straight swaths for what is not swept yet.
-struct SwathPlan {
-  double worth = 0.0;  ///< price of what they sweep, less their length and turns [m]
-  std::vector<Work> works;
-};
-
 /// What swaths are chosen by.
 struct SwathPrices {
   double unswept = 0.0;  ///< of a square metre that is not swept [m/m^2]
@@ -34,8 +28,9 @@ std::vector<double> swathHeadings(const Field& field);
 std::vector<SwathHeading> rankHeadings(const Field& field, const SwathPrices& prices, const CoverageGrid& grid,
                                        const std::vector<double>& headings);
 
-/// The swaths, all in one of the first few `headings`, that are the best bargain. Marks in `grid` what they sweep.
-SwathPlan planSwaths(const Field& field, const SwathPrices& prices, const std::vector<SwathHeading>& headings,
-                     CoverageGrid* grid);
+/// Straight swaths for what is not swept yet, all in one of the first few `headings`, that are the best bargain. Marks
+/// in `grid` what they sweep.
+std::vector<Work> planSwaths(const Field& field, const SwathPrices& prices, const std::vector<SwathHeading>& headings,
+                             CoverageGrid* grid);
 
 }  // namespace external_command

@@ -81,9 +81,8 @@ class CoveragePlanner {
   CoveragePlanner(const VehicleParams& vehicle, const CoverageParams& params);
 
   /// @param start     pose of the vehicle; not given: the path begins with its first swath.
-  /// @param progress  to go on with an earlier plan, in the same area; it may have new holes since. The ratios then
-  /// tell
-  ///                  of the whole plan, the path and the lengths of what is still to be done.
+  /// @param progress  to go on with an earlier plan, in the same area; it may have new holes since. The ratios
+  ///                  then tell of the whole plan, the path and the lengths of what is still to be done.
   /// @throws InvalidRequest   the area is smaller than the vehicle, a hole leaves nothing of it, it is too large, or
   ///                          `progress` names a line that there is not.
   /// @throws StartBlocked     the footprint at `start` is outside the area or in a hole; the text says by how much.

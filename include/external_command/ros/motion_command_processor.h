@@ -24,7 +24,7 @@ struct MotionPlan {
 };
 
 /// @throws NotReady  `dry_runs` are more than `limit`; none waits, so that each answer comes within the planning
-/// budget.
+///                   budget.
 void requireNotMore(std::size_t dry_runs, std::size_t limit);
 
 /// The part of MotionCommandProcessor that does not depend on the service.
