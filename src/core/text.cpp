@@ -22,4 +22,8 @@ std::string at(const Pose2d& pose) { return formatted("(%.2f, %.2f, %.3f)", pose
 
 std::string metres(double length) { return formatted("%.2f m", length); }
 
+std::string radians(double angle) { return formatted("%.2f rad", angle); }
+
+std::string seconds(double time) { return formatted("%.2f s", time); }
+
 }  // namespace external_command

@@ -13,6 +13,7 @@ namespace external_command {
 namespace {
 
 constexpr double kRepeated = 1e-3;             // two points nearer than this are one [m]
+constexpr double kSameHeading = 1e-3;          // [rad]
 constexpr double kMaxBulge = 0.25;             // of the curve beside the straight line between two points [m]
 constexpr double kMaxSmoothTurn = 0.6;         // of the curve against that line, at either end [rad]
 constexpr double kMaxHeadingError = M_PI / 4;  // of a given heading against the line, there or back [rad]
@@ -55,10 +56,32 @@ double tangentAtEnd(const Point2d& chord, double other, std::optional<double> wa
   return along - angleBetween(along, other);
 }
 
+/// A line of which no point repeats the one before.
+struct DistinctLine {
+  WaypointLine line;
+  std::vector<std::size_t> number;  ///< of each point in the list that was given
+};
+
+DistinctLine distinct(const WaypointLine& given) {
+  DistinctLine result;
+  WaypointLine& line = result.line;
+  line.end_heading = given.end_heading;
+  if (!given.headings.empty() && given.headings.size() != given.points.size()) {
+    throw InvalidRequest(text("heading has ", given.headings.size(), " elements; way_point has ", given.points.size()));
+  }
+  for (const WaypointPlace& place : placesOf(given.points)) {
+    line.points.push_back(given.points[place.first]);
+    if (!given.headings.empty()) line.headings.push_back(given.headings[place.last]);
+    result.number.push_back(place.first);
+  }
+  return result;
+}
+
 /// Samples one path between two gear changes after the other.
 class PathSampler {
  public:
-  PathSampler(const WaypointLine& line, double spacing) : line_(line), spacing_(spacing) {}
+  PathSampler(const DistinctLine& given, double spacing)
+      : line_(given.line), numbers_(given.number), spacing_(spacing) {}
 
   /// The points from `first` to `last`, driven in one gear.
   void addLeg(std::size_t first, std::size_t last, Direction direction) {
@@ -87,7 +110,7 @@ class PathSampler {
         continue;
       }
       if (worst == 0.0) bends.emplace_back();
-      if (kappa > worst) bends.back() = {waypoints_[i], path[i].pose().position(), 1.0 / kappa, corners_[i]};
+      if (kappa > worst) bends.back() = {numbers_[waypoints_[i]], path[i].pose().position(), 1.0 / kappa, corners_[i]};
       worst = std::max(worst, kappa);
     }
     return bends;
@@ -95,7 +118,7 @@ class PathSampler {
 
  private:
   std::optional<double> wantedDirection(std::size_t i) const {
-    if (line_.headings.empty()) return std::nullopt;
+    if (line_.headings.empty()) return i + 1 == line_.points.size() ? line_.end_heading : std::nullopt;
     return line_.headings[i] + (direction_ == Direction::kForward ? 0.0 : M_PI);
   }
 
@@ -149,6 +172,7 @@ class PathSampler {
   }
 
   const WaypointLine& line_;
+  const std::vector<std::size_t>& numbers_;
   const double spacing_;
   Direction direction_ = Direction::kForward;
   Path path_;
@@ -156,62 +180,56 @@ class PathSampler {
   std::vector<double> corners_;         ///< per path point: its turn on the spot [rad]
 };
 
-void requirePoints(const std::vector<Point2d>& points, double spacing) {
-  if (points.size() < 2) throw InvalidRequest(text("way_point has ", points.size(), " points; at least 2 are needed"));
+void requirePoints(const DistinctLine& given, std::size_t count_given, double spacing) {
+  const std::vector<Point2d>& points = given.line.points;
+  const auto name = [&](std::size_t i) { return text("way_point[", given.number[i], "]"); };
   double count = 1.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!points[i].allFinite()) throw InvalidRequest(text("way_point[", i, "] is not finite"));
+    if (!points[i].allFinite()) throw InvalidRequest(name(i) + " is not finite");
     if (i == 0) continue;
-    const double step = (points[i] - points[i - 1]).norm();
-    if (step < kRepeated) {
-      throw InvalidRequest(text("way_point[", i, "] ", at(points[i]), " repeats the one before it; leave it out"));
-    }
-    count += std::ceil(step / spacing);
+    count += std::ceil((points[i] - points[i - 1]).norm() / spacing);
     if (!(count <= kMaxPathPoints)) {
-      throw InvalidRequest(text("way_point[", i, "] ", at(points[i]), " makes the path too long: more than ",
-                                kMaxPathPoints, " points ", metres(spacing), " apart (~path_spacing)"));
+      throw InvalidRequest(text(name(i), " ", at(points[i]), " makes the path too long: more than ", kMaxPathPoints,
+                                " points ", metres(spacing), " apart (~path_spacing)"));
     }
   }
+  if (points.size() >= 2) return;
+  throw InvalidRequest(text("way_point has ", count_given, " points", count_given > 1 ? ", all in one place" : "",
+                            "; at least 2 in different places are needed"));
 }
 
 /// The gear from point `i` to the next.
-Direction gearAfter(const WaypointLine& line, std::size_t i) {
+Direction gearAfter(const DistinctLine& given, std::size_t i) {
+  const WaypointLine& line = given.line;
   const double along = headingOf(line.points[i + 1] - line.points[i]);
   // On an arc the mean of both headings is the direction of its chord.
   const double turn = angleBetween(line.headings[i], line.headings[i + 1]);
   const double error = std::abs(angleBetween(along, line.headings[i] + 0.5 * turn));
   if (error <= kMaxHeadingError) return Direction::kForward;
   if (M_PI - error <= kMaxHeadingError) return Direction::kReverse;
-  throw InvalidRequest(text("heading[", i, "] ", line.headings[i], " and heading[", i + 1, "] ", line.headings[i + 1],
-                            " lie across the way from way_point[", i, "] ", at(line.points[i]), " to ",
-                            at(line.points[i + 1]), ", whose direction is ", along,
-                            " rad; give headings along it, or against it to reverse"));
+  const std::size_t from = given.number[i], to = given.number[i + 1];
+  throw InvalidRequest(text("heading[", from, "] ", radians(line.headings[i]), " and heading[", to, "] ",
+                            radians(line.headings[i + 1]), " lie across the way from way_point[", from, "] ",
+                            at(line.points[i]), " to way_point[", to, "] ", at(line.points[i + 1]),
+                            ", whose direction is ", radians(along),
+                            "; give headings along it, or against it to reverse"));
 }
 
-std::vector<Direction> gearsOf(const WaypointLine& line) {
+std::vector<Direction> gearsOf(const DistinctLine& given) {
+  const WaypointLine& line = given.line;
+  if (line.end_heading && !std::isfinite(*line.end_heading)) throw InvalidRequest("end_heading is not finite");
   std::vector<Direction> gears(line.points.size() - 1, Direction::kForward);
   if (line.headings.empty()) return gears;
-  if (line.headings.size() != line.points.size()) {
-    throw InvalidRequest(text("heading has ", line.headings.size(), " elements; way_point has ", line.points.size()));
-  }
   for (std::size_t i = 0; i < line.headings.size(); ++i) {
-    if (!std::isfinite(line.headings[i])) throw InvalidRequest(text("heading[", i, "] is not finite"));
+    if (!std::isfinite(line.headings[i])) throw InvalidRequest(text("heading[", given.number[i], "] is not finite"));
   }
-  for (std::size_t i = 0; i < gears.size(); ++i) gears[i] = gearAfter(line, i);
+  for (std::size_t i = 0; i < gears.size(); ++i) gears[i] = gearAfter(given, i);
   return gears;
 }
 
-}  // namespace
-
-void checkWaypoints(const WaypointLine& line, double spacing) {
-  requirePoints(line.points, spacing);
-  gearsOf(line);
-}
-
-WaypointPath pathThrough(const WaypointLine& line, const VehicleParams& vehicle, double spacing, double target_speed) {
-  requirePoints(line.points, spacing);
-  const std::vector<Direction> gears = gearsOf(line);
-  PathSampler sampler(line, spacing);
+WaypointPath sampled(const DistinctLine& given, const std::vector<Direction>& gears, const VehicleParams& vehicle,
+                     double spacing, double speed) {
+  PathSampler sampler(given, spacing);
   for (std::size_t first = 0; first < gears.size();) {
     std::size_t last = first + 1;
     while (last < gears.size() && gears[last] == gears[first]) ++last;
@@ -220,12 +238,51 @@ WaypointPath pathThrough(const WaypointLine& line, const VehicleParams& vehicle,
   }
   WaypointPath result;
   result.path = sampler.takePath();
-  for (ReferencePoint& point : result.path) point.speed = target_speed > 0.0 ? target_speed : vehicle.max_speed;
+  for (ReferencePoint& point : result.path) point.speed = speed;
   setArcLengths(&result.path);
   setCurvatures(&result.path);
   limitSpeeds(vehicle, &result.path);
   result.tight_bends = sampler.tightBends(result.path, vehicle.maxKappa());
   return result;
+}
+
+}  // namespace
+
+std::vector<WaypointPlace> placesOf(const std::vector<Point2d>& points) {
+  std::vector<WaypointPlace> places;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    // From the first of a place: many small steps in a row are a way.
+    const bool is_repeated = i > 0 && (points[i] - points[places.back().first]).norm() < kRepeated;
+    if (!is_repeated) places.push_back({i, i});
+    places.back().last = i;
+  }
+  return places;
+}
+
+void checkWaypoints(const WaypointLine& line, double spacing) {
+  const DistinctLine given = distinct(line);
+  requirePoints(given, line.points.size(), spacing);
+  gearsOf(given);
+}
+
+WaypointPath pathThrough(const WaypointLine& line, const VehicleParams& vehicle, double spacing, double target_speed) {
+  DistinctLine given = distinct(line);
+  requirePoints(given, line.points.size(), spacing);
+  const std::vector<Direction> gears = gearsOf(given);
+  const double speed = target_speed > 0.0 ? target_speed : vehicle.max_speed;
+  const std::optional<double> wished = given.line.headings.empty() ? given.line.end_heading : std::nullopt;
+  const auto remaining = [&](const WaypointPath& result) {
+    return wished ? angleBetween(result.path.back().heading, *wished) : 0.0;
+  };
+  given.line.end_heading.reset();
+  WaypointPath result = sampled(given, gears, vehicle, spacing, speed);
+  result.end_turn = remaining(result);
+  if (std::abs(result.end_turn) < kSameHeading) return result;
+  given.line.end_heading = wished;
+  WaypointPath turned = sampled(given, gears, vehicle, spacing, speed);
+  turned.end_turn = remaining(turned);
+  const bool is_drivable = turned.tight_bends.size() <= result.tight_bends.size();
+  return is_drivable && std::abs(turned.end_turn) < kSameHeading ? turned : result;
 }
 
 }  // namespace external_command

@@ -27,6 +27,7 @@ FreeSpaceCommandProcessor::~FreeSpaceCommandProcessor() { stopServing(); }
 void FreeSpaceCommandProcessor::start() {
   MotionCommandProcessor<FreeSpace>::start();
   planner_.emplace(getNodeHandle(), parameters(), context());
+  goal_limits_.read(parameters(), "goal");
 }
 
 void FreeSpaceCommandProcessor::check(const FreeSpaceCommand& command) const {
@@ -45,6 +46,7 @@ void FreeSpaceCommandProcessor::processSpecialCommand(const FreeSpaceCommand& co
   const Pose2d frame = context().vehiclePose().ofFrame(command.header.frame_id);
   const Pose2d start = context().vehiclePose().get();
   const Pose2d goal = toMapPose(command.parking_spot_pose, frame);
+  goal_limits_.check("parking_spot_pose is at", "goal", goal.position(), start.position(), &plan->report.warnings);
   const Region region = planner_->regionOf(partsOf(command, frame));
 
   plan->scene.start = start;

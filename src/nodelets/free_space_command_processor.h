@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "distance_limits.h"
 #include "external_command/FreeSpace.h"
 #include "manoeuvre_planner.h"
 
@@ -20,6 +21,7 @@ class FreeSpaceCommandProcessor : public MotionCommandProcessor<FreeSpace> {
   void processSpecialCommand(const FreeSpaceCommand& command, const CancelToken& cancel, MotionPlan* plan) override;
 
   std::optional<ManoeuvrePlanner> planner_;
+  DistanceLimits goal_limits_{100.0, 0.0};
 };
 
 }  // namespace external_command

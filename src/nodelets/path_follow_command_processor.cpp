@@ -2,6 +2,8 @@
 #include "path_follow_command_processor.h"
 
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "external_command/core/text.h"
 #include "external_command/core/waypoint_path.h"
@@ -12,12 +14,32 @@ namespace external_command {
 namespace {
 
 constexpr std::size_t kMaxBendWarnings = 20;
+constexpr double kSameEndHeading = 0.05;  // [rad]
 
 WaypointLine toLine(const PathFollowCommand& command, const Pose2d& frame) {
   WaypointLine line;
   line.points = toMapPoints(command.way_point, frame);
   for (const double heading : command.heading) line.headings.push_back(heading + frame.heading);
+  if (command.has_end_heading) line.end_heading = command.end_heading + frame.heading;
   return line;
+}
+
+/// The command as the planner gets it: way points that repeat the one before are left out, with their borders and
+/// headings.
+PathFollowCommand withoutRepeats(const PathFollowCommand& command, const std::vector<Point2d>& points) {
+  const std::vector<WaypointPlace> places = placesOf(points);
+  if (places.size() == points.size()) return command;
+  PathFollowCommand distinct = command;
+  const auto thin = [&](auto* list, std::size_t WaypointPlace::*which) {
+    if (list->empty()) return;
+    for (std::size_t i = 0; i < places.size(); ++i) (*list)[i] = (*list)[places[i].*which];
+    list->resize(places.size());
+  };
+  thin(&distinct.way_point, &WaypointPlace::first);
+  thin(&distinct.heading, &WaypointPlace::last);
+  thin(&distinct.left_boundary, &WaypointPlace::last);
+  thin(&distinct.right_boundary, &WaypointPlace::last);
+  return distinct;
 }
 
 void requireSameCount(std::size_t size, std::size_t way_points, const std::string& field) {
@@ -73,7 +95,7 @@ std::string describe(const TightBend& bend, double min_radius) {
     return text("the path bends with a radius of ", metres(bend.radius), " near ", place, "; ", needed);
   }
   const bool turns_back = std::abs(bend.corner) > 0.75 * M_PI;
-  return text("the path has a corner of ", std::abs(bend.corner), " rad at ", place, "; ", needed,
+  return text("the path has a corner of ", radians(std::abs(bend.corner)), " at ", place, "; ", needed,
               turns_back ? ", or headings that say where it reverses" : "");
 }
 
@@ -83,6 +105,16 @@ void warnOfTightBends(const std::vector<TightBend>& bends, double min_radius, st
   }
   if (bends.size() <= kMaxBendWarnings) return;
   warnings->push_back(text(bends.size() - kMaxBendWarnings, " more places bend too tightly"));
+}
+
+/// Planners for vehicles that turn on the spot end with any heading.
+void warnOfEndHeading(const WaypointPath& result, std::vector<std::string>* warnings) {
+  if (std::abs(result.end_turn) < kSameEndHeading) return;
+  const Pose2d end = result.path.back().pose();
+  warnings->push_back(
+      text("the path ends at ", at(end), " with a heading of ", radians(end.heading), ", not with ",
+           radians(normalizeAngle(end.heading + result.end_turn)), " (end_heading): the vehicle ",
+           "cannot turn there; let the last way points lead into that heading, or plan with free_space"));
 }
 
 }  // namespace
@@ -95,6 +127,11 @@ PathFollowCommandProcessor::~PathFollowCommandProcessor() {
   stopServing();
 }
 
+void PathFollowCommandProcessor::start() {
+  MotionCommandProcessor<PathFollow>::start();
+  start_limits_.read(parameters(), "start");
+}
+
 void PathFollowCommandProcessor::open() {
   MotionCommandProcessor<PathFollow>::open();
   std::string topic;
@@ -103,10 +140,26 @@ void PathFollowCommandProcessor::open() {
   ros::NodeHandle nh(getNodeHandle());
   nh.setCallbackQueue(lane().queue());
   const boost::function<void(const ros::MessageEvent<nav_msgs::Path const>&)> on_path =
-      [this](const ros::MessageEvent<nav_msgs::Path const>& event) {
-        process(toPathFollowCommand(*event.getConstMessage()), event.getPublisherName());
-      };
+      [this](const ros::MessageEvent<nav_msgs::Path const>& event) { takePath(event); };
   path_subscriber_ = nh.subscribe<nav_msgs::Path>(topic, 10, on_path);
+}
+
+void PathFollowCommandProcessor::takePath(const ros::MessageEvent<nav_msgs::Path const>& event) {
+  const nav_msgs::Path& path = *event.getConstMessage();
+  PathFollowCommand command;
+  command.header = path.header;
+  try {
+    command = toPathFollowCommand(path, [this](const std::string& f) { return context().vehiclePose().ofFrame(f); });
+  } catch (const Error&) {
+    CommandLogEntry entry;
+    entry.header.stamp = ros::Time::now();
+    entry.caller = event.getPublisherName();
+    entry.reply = refuse(command.command_id);
+    entry.request = packAny(command);
+    if (isLogged()) log(std::move(entry));
+    return;
+  }
+  process(command, event.getPublisherName());
 }
 
 void PathFollowCommandProcessor::check(const PathFollowCommand& command) const {
@@ -117,17 +170,30 @@ void PathFollowCommandProcessor::check(const PathFollowCommand& command) const {
   checkWaypoints(toLine(command, frame), context().params().reference_path.spacing);
 }
 
+/// Where the vehicle is need not be known to follow a path.
+void PathFollowCommandProcessor::checkStart(const Point2d& start, std::vector<std::string>* warnings) const {
+  std::optional<Pose2d> vehicle;
+  try {
+    vehicle = context().vehiclePose().get();
+  } catch (const NotReady&) {
+    if (start_limits_.refusal > 0.0) throw;
+  }
+  if (vehicle) start_limits_.check("the path begins at", "start", start, vehicle->position(), warnings);
+}
+
 void PathFollowCommandProcessor::processSpecialCommand(const PathFollowCommand& command, const CancelToken& /*cancel*/,
                                                        MotionPlan* plan) {
   const ContextParams& params = context().params();
   const Pose2d frame = context().vehiclePose().ofFrame(command.header.frame_id);
   const WaypointLine line = toLine(command, frame);
+  checkStart(line.points.front(), &plan->report.warnings);
   WaypointPath result = pathThrough(line, params.vehicle, params.reference_path.spacing, command.target_speed);
   warnOfNarrowPath(command, params.vehicle.width, &plan->report.warnings);
   warnOfTightBends(result.tight_bends, params.vehicle.min_turning_radius, &plan->report.warnings);
+  warnOfEndHeading(result, &plan->report.warnings);
   plan->path = std::move(result.path);
   plan->command.command_type = PlanningCommand::CUSTOM;
-  plan->command.custom_command = packAny(command);
+  plan->command.custom_command = packAny(withoutRepeats(command, line.points));
   plan->scene.way_points = line.points;
   plan->scene.start = plan->path.front().pose();
   plan->scene.goal = plan->path.back().pose();

@@ -4,7 +4,9 @@
 #include <nav_msgs/Path.h>
 
 #include <string>
+#include <vector>
 
+#include "distance_limits.h"
 #include "external_command/PathFollow.h"
 #include "external_command/ros/motion_command_processor.h"
 
@@ -17,10 +19,15 @@ class PathFollowCommandProcessor : public MotionCommandProcessor<PathFollow> {
   ~PathFollowCommandProcessor() override;
 
  private:
+  void start() override;
   void open() override;
   void check(const PathFollowCommand& command) const override;
   void processSpecialCommand(const PathFollowCommand& command, const CancelToken& cancel, MotionPlan* plan) override;
 
+  void takePath(const ros::MessageEvent<nav_msgs::Path const>& event);
+  void checkStart(const Point2d& start, std::vector<std::string>* warnings) const;
+
+  DistanceLimits start_limits_{5.0, 0.0};
   ros::Subscriber path_subscriber_;
 };
 

@@ -6,6 +6,8 @@
 #include <ros/names.h>
 #include <ros/time.h>
 
+#include <cstdlib>
+
 namespace external_command {
 
 namespace {
@@ -127,6 +129,13 @@ void ParameterReader::readName(const std::string& key, std::string* value) const
 void ParameterReader::readNames(const std::string& key, std::vector<std::string>* value) const {
   read(key, value);
   for (std::size_t i = 0; i < value->size(); ++i) requireName(text(nameOf(key), "[", i, "]"), (*value)[i]);
+}
+
+void ParameterReader::readPath(const std::string& key, std::string* value) const {
+  read(key, value);
+  const char* home = std::getenv("HOME");
+  const bool is_below_home = *value == "~" || value->compare(0, 2, "~/") == 0;
+  if (is_below_home && home != nullptr) *value = home + value->substr(1);
 }
 
 VehicleParams readVehicleParams(const ParameterReader& reader) {

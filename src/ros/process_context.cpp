@@ -5,6 +5,7 @@
 
 #include "external_command/core/error.h"
 #include "external_command/core/text.h"
+#include "external_command/ros/frame_id.h"
 #include "external_command/ros/map_store.h"
 
 namespace external_command {
@@ -34,10 +35,12 @@ void publishOrigin(const ros::NodeHandle& parameters, const Router* router) {
 
 ContextParams readContextParams(const ParameterReader& reader) {
   ContextParams params;
-  reader.read("map_file", &params.map_file);
+  reader.readPath("map_file", &params.map_file);
   params.map_origin = readMapOrigin(reader);
   reader.read("map_frame", &params.map_frame);
   reader.read("base_frame", &params.base_frame);
+  params.map_frame = frameId(params.map_frame);
+  params.base_frame = frameId(params.base_frame);
   reader.readWithin("max_pose_age", 0.01, 3600.0, &params.max_pose_age);
   reader.readWithin("planner_silence_timeout", 0.1, 86400.0, &params.planner_silence_timeout);
   reader.readName("output_command_status_name", &params.status_topic);

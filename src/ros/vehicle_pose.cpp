@@ -7,6 +7,7 @@
 
 #include "external_command/core/error.h"
 #include "external_command/core/text.h"
+#include "external_command/ros/frame_id.h"
 
 namespace external_command {
 
@@ -42,7 +43,8 @@ Pose2d VehiclePose::get() const {
   return pose;
 }
 
-Pose2d VehiclePose::ofFrame(const std::string& frame) const {
+Pose2d VehiclePose::ofFrame(const std::string& given) const {
+  const std::string frame = frameId(given);
   if (frame.empty() || frame == map_frame_) return {};
   try {
     return toPose(buffer_.lookupTransform(map_frame_, frame, ros::Time(0)).transform);

@@ -201,12 +201,55 @@ TEST(WaypointPath, WorksAtUtmCoordinates) {
   for (const ReferencePoint& point : result.path) EXPECT_NEAR(point.kappa, 0.1, 0.002);
 }
 
+TEST(WaypointPath, TakesRepeatedPointsForOne) {
+  const WaypointLine repeated{{{0.0, 0.0}, {0.0, 0.0}, {5.0, 0.0}, {5.0, 1e-4}, {5.0, 0.0}, {9.0, 0.0}, {9.0, 0.0}}};
+  EXPECT_EQ(through(repeated).path.size(), through({{{0.0, 0.0}, {5.0, 0.0}, {9.0, 0.0}}}).path.size());
+  EXPECT_TRUE(isDriven(through(repeated).path));
+}
+
+TEST(WaypointPath, TakesTheLastHeadingOfARepeatedPoint) {
+  const std::vector<Point2d> points = {{0.0, 0.0}, {0.0, 0.0}, {5.0, 0.0}, {5.0, 0.0}};
+  EXPECT_EQ(refusalOf({points, {1.5, 0.0, 1.5, 0.1}}), "");
+  EXPECT_NE(refusalOf({points, {0.0, 1.5, 0.0, 1.5}}).find("heading[0]"), std::string::npos);
+}
+
+TEST(WaypointPath, NumbersPointsAsTheyWereGiven) {
+  const WaypointLine line{{{0.0, 0.0}, {0.0, 0.0}, {30.0, 0.0}, {30.0, 30.0}}};
+  ASSERT_EQ(through(line).tight_bends.size(), 1u);
+  EXPECT_EQ(through(line).tight_bends[0].waypoint, 2u);
+}
+
+TEST(WaypointPath, GetsOnInStepsBelowAMillimetre) {
+  WaypointLine line;
+  for (int i = 0; i <= 3000; ++i) line.points.emplace_back(0.4e-3 * i, 0.0);
+  EXPECT_NEAR(through(line).path.back().s, 1.2, 1e-3);
+}
+
+TEST(WaypointPath, EndsWithTheHeadingThatIsWishedForWhereTheVehicleCan) {
+  WaypointLine line{{{0.0, 0.0}, {5.0, 0.0}, {10.0, 0.0}}};
+  line.end_heading = 0.1;
+  EXPECT_NEAR(through(line).path.back().heading, 0.1, 1e-9);
+  EXPECT_EQ(through(line).end_turn, 0.0);
+  EXPECT_TRUE(isDriven(through(line).path));
+}
+
+TEST(WaypointPath, LeavesAnEndHeadingThatTheVehicleCannotTurnTo) {
+  for (const double heading : {M_PI / 2.0, M_PI, -2.0, 0.5}) {
+    WaypointLine line{{{0.0, 0.0}, {5.0, 0.0}, {5.5, 0.0}}};
+    line.end_heading = heading;
+    const WaypointPath result = through(line);
+    EXPECT_NEAR(result.path.back().heading, 0.0, 1e-9) << heading;
+    EXPECT_NEAR(result.end_turn, heading, 1e-9);
+    EXPECT_TRUE(result.tight_bends.empty()) << heading;
+    EXPECT_EQ(result.path.back().direction, Direction::kForward);
+  }
+}
+
 TEST(WaypointPath, RefusesPointsThatAreNoPath) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(refusalOf({{{1.0, 2.0}}, {}}).find("at least 2"), std::string::npos);
   EXPECT_NE(refusalOf({{{1.0, 2.0}, {nan, 0.0}}, {}}).find("way_point[1] is not finite"), std::string::npos);
-  EXPECT_NE(refusalOf({{{1.0, 2.0}, {3.0, 2.0}, {3.0, 2.0}}, {}}).find("way_point[2] (3.00, 2.00) repeats"),
-            std::string::npos);
+  EXPECT_NE(refusalOf({{{1.0, 2.0}, {1.0, 2.0}}, {}}).find("2 points, all in one place"), std::string::npos);
   EXPECT_NE(refusalOf({{{0.0, 0.0}, {1e9, 0.0}}, {}}).find("too long"), std::string::npos);
   EXPECT_NE(refusalOf({{{-1e308, 0.0}, {1e308, 0.0}}, {}}).find("too long"), std::string::npos);
 }

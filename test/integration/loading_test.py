@@ -65,6 +65,10 @@ class LoadingTest(unittest.TestCase):
     def test_the_same_class_twice_stops_the_start(self):
         self.assert_stops(component([LANE_FOLLOW, LANE_FOLLOW]), LANE_FOLLOW, "twice")
 
+    def test_a_map_is_looked_for_in_the_home_folder(self):
+        started = component([LANE_FOLLOW], map_file="~/no_such_map.bin", environment={"HOME": "/home/somebody"})
+        self.assert_stops(started, "/home/somebody/no_such_map.bin")
+
     def test_an_empty_list_stops_the_start(self):
         self.assert_stops(component([]), NAMESPACE + "/external_command/processors", "empty")
 

@@ -43,6 +43,11 @@ def dry_run(way_point, **fields):
     return follow(way_point=way_point, dry_run=True, **fields)
 
 
+def about_the_path(answer):
+    """The warnings, but for that of the vehicle's distance."""
+    return [warning for warning in answer.report.warnings if "from the vehicle" not in warning]
+
+
 class PathFollowTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -110,19 +115,19 @@ class PathFollowTest(unittest.TestCase):
     def test_warns_of_corners_bends_and_narrow_places(self):
         corner = dry_run(points((0.0, 0.0), (30.0, 0.0), (30.0, 30.0)))
         self.assert_planned(corner)
-        self.assertEqual(len(corner.report.warnings), 1, corner.report.warnings)
-        for words in ("way_point[1]", "(30.00, 0.00)", "5.00 m"):
-            self.assertIn(words, corner.report.warnings[0])
+        self.assertEqual(len(about_the_path(corner)), 1, corner.report.warnings)
+        for words in ("way_point[1]", "(30.00, 0.00)", "5.00 m", "1.57 rad"):
+            self.assertIn(words, about_the_path(corner)[0])
         tight = dry_run(points(*[(3.0 * math.sin(0.2 * i), 3.0 - 3.0 * math.cos(0.2 * i)) for i in range(8)]))
-        self.assertEqual(len(tight.report.warnings), 1, tight.report.warnings)
-        self.assertIn("radius of 3.0", tight.report.warnings[0])
+        self.assertEqual(len(about_the_path(tight)), 1, tight.report.warnings)
+        self.assertIn("radius of 3.0", about_the_path(tight)[0])
         narrow = dry_run(STRAIGHT, left_path_width=0.5, right_path_width=0.6)
-        self.assertIn("1.10 m", narrow.report.warnings[0])
+        self.assertIn("1.10 m", about_the_path(narrow)[0])
 
     def test_takes_borders_or_widths(self):
         left, right = (points((0.0, y), (10.0, y), (20.0, y)) for y in (2.0, -2.0))
-        self.assertEqual(dry_run(STRAIGHT, left_boundary=left, right_boundary=right).report.warnings, [])
-        self.assertEqual(dry_run(STRAIGHT, left_path_width=2.0, right_path_width=1.5).report.warnings, [])
+        self.assertEqual(about_the_path(dry_run(STRAIGHT, left_boundary=left, right_boundary=right)), [])
+        self.assertEqual(about_the_path(dry_run(STRAIGHT, left_path_width=2.0, right_path_width=1.5)), [])
         both = dict(left_boundary=left, right_boundary=right, left_path_width=2.0, right_path_width=2.0)
         self.assert_refused(dry_run(STRAIGHT, **both), "not both")
         self.assert_refused(dry_run(STRAIGHT, left_boundary=left[:2], right_boundary=right), "left_boundary has 2")
@@ -145,7 +150,7 @@ class PathFollowTest(unittest.TestCase):
         running = self.vehicle.drive_straight()
         self.assert_refused(follow(), "way_point", "0 elements")
         self.assert_refused(follow(way_point=STRAIGHT[:1]), "way_point", "1 elements")
-        self.assert_refused(follow(way_point=STRAIGHT[:2] + STRAIGHT[1:]), "way_point[2]", "repeats")
+        self.assert_refused(follow(way_point=STRAIGHT[:1] * 3), "way_point", "all in one place")
         self.assert_refused(follow(way_point=points((0.0, 0.0), (math.nan, 0.0))), "way_point[1].x", "finite")
         self.assert_refused(follow(way_point=points((0.0, 0.0), (9e8, 0.0))), "too long")
         self.assert_refused(follow(way_point=STRAIGHT, heading=[0.0]), "heading has 1")
@@ -154,8 +159,8 @@ class PathFollowTest(unittest.TestCase):
         self.assert_refused(follow(way_point=STRAIGHT, target_speed=-1.0), "target_speed")
         self.assertEqual(support.command_status(running).status, CommandStatus.RUNNING)
 
-    def publish_path(self, way, frame="map"):
-        """A nav_msgs/Path; its entry in the command log."""
+    def publish_path(self, way, frame="map", orientation=(0.0, 0.0), end_orientation=None, frames=()):
+        """A nav_msgs/Path; its entry in the command log. Orientations are (z, w) of the quaternion."""
         publisher = rospy.Publisher("given_path", Path, queue_size=1)
         log = support.Collector("external_command/log", CommandLogEntry)
         support.wait_until(lambda: publisher.get_num_connections() > 0, "somebody takes the path")
@@ -163,6 +168,11 @@ class PathFollowTest(unittest.TestCase):
         path.header.frame_id = frame
         for stamped, point in zip(path.poses, way):
             stamped.pose.position = point
+            stamped.pose.orientation.z, stamped.pose.orientation.w = orientation
+        for stamped, own in zip(path.poses, frames):
+            stamped.header.frame_id = own
+        if end_orientation:
+            path.poses[-1].pose.orientation.z, path.poses[-1].pose.orientation.w = end_orientation
         publisher.publish(path)
         entry = log.wait_for(lambda _: True, "an entry in the log")
         log.close()
@@ -174,6 +184,59 @@ class PathFollowTest(unittest.TestCase):
         self.assertEqual(entry.caller, rospy.get_name())
         self.sent_command(entry.reply.command_id)
         support.wait_for_status(entry.reply.command_id, CommandStatus.FINISHED)
+
+    def assert_driven_forward(self, entry, *ends):
+        """The path sent for it is driven forward, between these ends."""
+        self.assertEqual(entry.reply.status, CommandStatus.RUNNING, support.describe(entry.reply))
+        path = self.sent_command(entry.reply.command_id).path.points
+        self.assertEqual({point.direction for point in path}, {PathPoint.FORWARD})
+        for point, (x, y) in zip((path[0], path[-1]), ends):
+            self.assertAlmostEqual(point.x, x, places=6)
+            self.assertAlmostEqual(point.y, y, places=6)
+
+    def test_orientations_that_nobody_filled_in_are_none(self):
+        west = points(*[(5.0 - i, 5.0) for i in range(20)])
+        north = points(*[(5.0, 5.0 + i) for i in range(20)])
+        up = (math.sqrt(0.5), math.sqrt(0.5))
+        for unset in ((0.0, 1.0), (0.0, 0.0)):
+            self.assert_driven_forward(self.publish_path(west, orientation=unset), (5.0, 5.0), (-14.0, 5.0))
+            navfn = self.publish_path(north, orientation=unset, end_orientation=up)
+            self.assert_driven_forward(navfn, (5.0, 5.0), (5.0, 24.0))
+
+    def test_each_pose_counts_in_its_own_frame(self):
+        broadcaster = tf2_ros.StaticTransformBroadcaster()
+        broadcaster.sendTransform(yard())
+        support.wait_until(lambda: dry_run(STRAIGHT, frame="/yard").status.status == CommandStatus.FINISHED,
+                           "the frame is known")
+        entry = self.publish_path(points((0.0, 0.0), (20.0, 0.0)), frames=("yard", "/yard"))
+        self.assert_driven_forward(entry, (100.0, 200.0), (100.0, 220.0))
+        entry = self.publish_path(points((0.0, 0.0), (100.0, 220.0)), frame="/map", frames=("yard", ""))
+        self.assert_driven_forward(entry, (100.0, 200.0), (100.0, 220.0))
+        unknown = self.publish_path(STRAIGHT, frames=("", "nowhere")).reply
+        self.assertEqual(unknown.error_code, CommandStatus.INVALID_REQUEST, support.describe(unknown))
+        self.assertIn("poses[1]", unknown.message)
+
+    def test_drops_repeated_points_with_their_borders_and_headings(self):
+        way = [STRAIGHT[0], STRAIGHT[0], STRAIGHT[1], STRAIGHT[2], STRAIGHT[2]]
+        left = points(*[(point.x, 2.0 + 0.1 * i) for i, point in enumerate(way)])
+        right = points(*[(point.x, -2.0) for point in way])
+        answer = follow(way_point=way, left_boundary=left, right_boundary=right, heading=[0.0] * 5)
+        self.assertEqual(answer.status.status, CommandStatus.RUNNING, support.describe(answer.status))
+        packed = any_message.unpack(self.sent_command(answer.status.command_id).custom_command, PathFollowCommand)
+        self.assertEqual(packed.way_point, STRAIGHT)
+        self.assertEqual(packed.left_boundary, [left[1], left[2], left[4]])
+        self.assertEqual((len(packed.right_boundary), len(packed.heading)), (3, 3))
+
+    def test_warns_where_the_path_cannot_end_with_the_wished_heading(self):
+        answer = dry_run(STRAIGHT, has_end_heading=True, end_heading=2.0)
+        self.assert_planned(answer)
+        self.assertTrue([w for w in answer.report.warnings if "2.00 rad (end_heading)" in w], answer.report.warnings)
+
+    def test_warns_of_a_path_that_begins_far_from_the_vehicle(self):
+        near = dry_run(self.vehicle.ahead((1.0, 0.0), (10.0, 0.0)))
+        self.assertEqual(near.report.warnings, [])
+        far = dry_run(self.vehicle.ahead((100.0, 50.0), (110.0, 50.0)))
+        self.assertTrue([w for w in far.report.warnings if "from the vehicle" in w], far.report.warnings)
 
     def test_refuses_a_bad_path_from_the_topic(self):
         statuses = support.Collector("external_command/status", CommandStatus)

@@ -26,4 +26,10 @@ std::string at(const Pose2d& pose);
 /// "7.10 m".
 std::string metres(double length);
 
+/// "3.14 rad".
+std::string radians(double angle);
+
+/// "0.35 s".
+std::string seconds(double time);
+
 }  // namespace external_command

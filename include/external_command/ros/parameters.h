@@ -39,6 +39,9 @@ class ParameterReader {
   void readName(const std::string& key, std::string* value) const;
   void readNames(const std::string& key, std::vector<std::string>* value) const;
 
+  /// The name of a file or folder, `~` at its beginning taken for the home folder.
+  void readPath(const std::string& key, std::string* value) const;
+
   bool has(const std::string& key) const { return nh_.hasParam(key); }
   ParameterReader within(const std::string& name) const { return ParameterReader(ros::NodeHandle(nh_, name)); }
   std::string nameOf(const std::string& key) const { return nh_.resolveName(key); }

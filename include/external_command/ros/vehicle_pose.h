@@ -20,9 +20,10 @@ class VehiclePose {
   /// @throws NotReady  there is none, or it is too old; the text names the frames and the age.
   Pose2d get() const;
 
-  /// Pose of `frame` in `map_frame`; the identity for `map_frame` itself and for "".
+  /// Pose of the frame `given` in `map_frame`; the identity for `map_frame` itself and for "". A slash before its name
+  /// does not belong to it, see frameId().
   /// @throws InvalidRequest  tf does not know how to get from one to the other.
-  Pose2d ofFrame(const std::string& frame) const;
+  Pose2d ofFrame(const std::string& given) const;
 
  private:
   const std::string map_frame_, base_frame_;
