@@ -158,6 +158,7 @@ VehicleParams readVehicleParams(const ParameterReader& reader) {
 RouterParams readRouterParams(const ParameterReader& reader) {
   RouterParams params;
   reader.read("min_lane_change_length", &params.min_lane_change_length);
+  reader.readWithin("lane_change_price", 0.0, 1e6, &params.lane_change_price);
   reader.readWithin("tight_lane_change_price", 0.0, 1e6, &params.tight_lane_change_price);
   reader.validate(params);
   return params;

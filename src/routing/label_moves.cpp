@@ -10,15 +10,10 @@ namespace external_command {
 
 namespace {
 
-constexpr double kChangePrice = 0.01;  // [m] per lane change: routes that differ by less count as equal
-constexpr double kSamePlace = 0.001;   // [m]
-constexpr double kTiny = 1e-9;         // [m]
-constexpr int kMaxChangePieces = 64;   // over which one change may run
-
-/// Sideways by `offset` on two arcs of `radius`: the shortest way, by plane geometry.
-double twoArcLength(double offset, double radius) {
-  return offset >= 2.0 * radius ? 2.0 * radius : std::sqrt(offset * (4.0 * radius - offset));
-}
+constexpr double kLeastChangePrice = 0.01;  // [m]: of routes that are equally long the one with fewer changes counts
+constexpr double kSamePlace = 0.001;        // [m]
+constexpr double kTiny = 1e-9;              // [m]
+constexpr int kMaxChangePieces = 64;        // over which one change may run
 
 }  // namespace
 
@@ -61,29 +56,44 @@ void LabelSearch::follow(std::int32_t index, const SearchLabel& label) {
 }
 
 void LabelSearch::change(std::int32_t index, const SearchLabel& label, const Neighbour& neighbour) {
-  if (rule_ == ChangeRule::kWithoutRoom) return change(index, label, neighbour, 0.0, kChangePrice);
-  const double roomy = params_.min_lane_change_length;
-  const double tight = twoArcLength(neighbour.pair.offset, params_.min_turning_radius);
-  change(index, label, neighbour, roomy, kChangePrice);
-  if (tight < roomy) change(index, label, neighbour, tight, kChangePrice + params_.tight_lane_change_price);
-}
-
-void LabelSearch::change(std::int32_t index, const SearchLabel& label, const Neighbour& neighbour, double length,
-                         double price) {
   const LanePair& pair = neighbour.pair;
-  const Crossing crossing{label.lane, length, length, price, 0};
   for (const Interval& part : graph_.crossableParts(neighbour)) {
     const Interval old_part{std::max(part.from, label.s), std::min(part.to, label.free_to)};
-    if (old_part.to - old_part.from < (length > 0.0 ? kTiny : 0.0)) continue;
+    if (old_part.to - old_part.from < (rule_ == ChangeRule::kWithRoom ? kTiny : 0.0)) continue;
     const Interval new_part{pair.toB(old_part.from), pair.toB(old_part.to)};
     if (blocked_.empty()) {
-      cross(index, neighbour, old_part.from, new_part, crossing);
+      change(index, neighbour, old_part.from, new_part);
       continue;
     }
     for (const Interval& free : blocked_.freeParts(pair.b, new_part.from, new_part.to)) {
-      cross(index, neighbour, pair.toA(free.from), free, crossing);
+      change(index, neighbour, pair.toA(free.from), free);
     }
   }
+}
+
+/// Where the lanes come nearer to each other, or a bend ends, a change that begins there may be done earlier than one
+/// that begins where it first can, at `old_s`.
+void LabelSearch::change(std::int32_t index, const Neighbour& neighbour, double old_s, const Interval& new_part) {
+  if (rule_ == ChangeRule::kWithoutRoom) return change(index, neighbour, old_s, new_part, 0.0);
+  double need = graph_.changeNeed(neighbour, old_s);
+  change(index, neighbour, old_s, new_part, need);
+  for (const ChangeNeed& next : graph_.changeNeeds(neighbour)) {
+    const auto later_s = static_cast<double>(next.s);
+    const double later_new_s = neighbour.pair.toB(later_s);
+    if (later_s <= old_s || static_cast<double>(next.length) >= need || later_new_s >= new_part.to) continue;
+    need = graph_.changeNeed(neighbour, later_s);
+    change(index, neighbour, later_s, {later_new_s, new_part.to}, need);
+  }
+}
+
+void LabelSearch::change(std::int32_t index, const Neighbour& neighbour, double old_s, const Interval& new_part,
+                         double need) {
+  const double price = std::max(params_.lane_change_price, kLeastChangePrice);
+  const double length = rule_ == ChangeRule::kWithoutRoom ? 0.0 : std::max(params_.min_lane_change_length, need);
+  const LaneIndex lane = work_.labels[index].lane;
+  cross(index, neighbour, old_s, new_part, {lane, length, length, price, 0});
+  if (need >= length) return;
+  cross(index, neighbour, old_s, new_part, {lane, need, need, price + params_.tight_lane_change_price, 0});
 }
 
 /// From `old_s`, abreast of `new_part.from` on the neighbour, across; `new_part` is what can be used for it.
@@ -129,7 +139,11 @@ void LabelSearch::crossOn(std::int32_t index, const LanePair& pair, const Crossi
       if (next == nullptr) continue;
       const double new_to = abreastUntil(graph_, blocked_, {old_lane, old_s}, *next, new_s);
       if (new_to <= new_s) continue;
-      cross(index, *next, old_s, {new_s, new_to}, {old_lane, crossing.length, crossing.rest, 0.0, crossing.pieces});
+      // The lanes may part, or bend, further on.
+      const bool needs_room = rule_ == ChangeRule::kWithRoom;
+      const double more = needs_room ? std::max(0.0, graph_.changeNeed(*next, old_s) - crossing.length) : 0.0;
+      cross(index, *next, old_s, {new_s, new_to},
+            {old_lane, crossing.length + more, crossing.rest + more, 0.0, crossing.pieces});
     }
   }
 }

@@ -78,7 +78,8 @@ class LabelSearch {
   void arrive(std::int32_t index, const SearchLabel& label);
   void follow(std::int32_t index, const SearchLabel& label);
   void change(std::int32_t index, const SearchLabel& label, const Neighbour& neighbour);
-  void change(std::int32_t index, const SearchLabel& label, const Neighbour& neighbour, double length, double price);
+  void change(std::int32_t index, const Neighbour& neighbour, double old_s, const Interval& new_part);
+  void change(std::int32_t index, const Neighbour& neighbour, double old_s, const Interval& new_part, double need);
   void cross(std::int32_t index, const Neighbour& neighbour, double old_s, const Interval& new_part, Crossing crossing);
   void crossOn(std::int32_t index, const LanePair& pair, const Crossing& crossing);
 

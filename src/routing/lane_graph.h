@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "change_room.h"
 #include "external_command/map/hd_map.h"
 #include "lane_pair.h"
 
@@ -24,13 +25,14 @@ class Span {
 /// The routable lanes of a map as flat arrays: which lane leads into which, and which lies beside which. Immutable.
 class LaneGraph {
  public:
-  /// A lane beside another, and where the line between them may be crossed.
+  /// A lane beside another, where the line between them may be crossed, and the room that takes.
   struct Neighbour {
     LanePair pair;
     std::uint32_t first_part, last_part;
+    std::uint32_t first_need, last_need;
   };
 
-  explicit LaneGraph(const HdMap& map);
+  LaneGraph(const HdMap& map, const RouterParams& params);
 
   std::size_t size() const { return lengths_.size(); }
   double length(LaneIndex lane) const { return lengths_[lane]; }
@@ -49,11 +51,19 @@ class LaneGraph {
     return {parts_.data() + neighbour.first_part, parts_.data() + neighbour.last_part};
   }
 
+  /// The least length of a change that begins at `s` on the lane that has this neighbour [m].
+  double changeNeed(const Neighbour& neighbour, double s) const;
+
+  /// Pieces of that lane, by rising `s`, from which on a change takes another length than before.
+  Span<ChangeNeed> changeNeeds(const Neighbour& neighbour) const {
+    return {needs_.data() + neighbour.first_need, needs_.data() + neighbour.last_need};
+  }
+
   /// `b` as a neighbour of `a` on this side; nullptr where it is none.
   const Neighbour* findNeighbour(LaneIndex a, LaneIndex b, LaneChange side) const;
 
  private:
-  void addNeighbour(const HdMap& map, LaneIndex a, LaneIndex b, LaneChange side);
+  void addNeighbour(const HdMap& map, LaneIndex a, LaneIndex b, LaneChange side, double min_turning_radius);
 
   std::vector<double> lengths_;
   std::vector<bool> routable_;
@@ -61,6 +71,7 @@ class LaneGraph {
   std::vector<LaneIndex> successors_;
   std::vector<Neighbour> neighbours_;
   std::vector<Interval> parts_;
+  std::vector<ChangeNeed> needs_;
 };
 
 }  // namespace external_command

@@ -20,15 +20,6 @@ bool beginAndEndTogether(const Polyline& a, const Polyline& b) {
          (a.points().back() - b.points().back()).norm() < kSameEnd;
 }
 
-double offsetBetween(const Polyline& a, const Polyline& b, const LanePair& pair) {
-  double offset = 0.0;
-  for (const double share : {0.0, 0.5, 1.0}) {
-    const double s = pair.a_from + share * (pair.a_to - pair.a_from);
-    offset = std::max(offset, (a.pointAt(s) - b.pointAt(pair.toB(s))).norm());
-  }
-  return offset;
-}
-
 double lengthOf(const std::vector<Point2d>& points) {
   double length = 0.0;
   for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
@@ -61,16 +52,15 @@ bool isRoutable(const Lane& lane) { return lane.isDrivable() && lane.direction !
 
 std::optional<LanePair> pairOf(const HdMap& map, LaneIndex a, LaneIndex b, LaneChange side) {
   const Polyline &center_a = map.lane(a).center, &center_b = map.lane(b).center;
-  LanePair pair{b, side, 0.0, center_a.length(), 0.0, center_b.length(), 0.0};
+  LanePair pair{b, side, 0.0, center_a.length(), 0.0, center_b.length()};
   if (!beginAndEndTogether(center_a, center_b)) {
     const Interval on_a{center_a.project(center_b.points().front()).s, center_a.project(center_b.points().back()).s};
     const Interval on_b{center_b.project(center_a.points().front()).s, center_b.project(center_a.points().back()).s};
     if (on_a.to - on_a.from < kMinStretch || on_b.to - on_b.from < kMinStretch) return std::nullopt;
     const bool whole =
         on_a.to - on_a.from > kWholeShare * center_a.length() && on_b.to - on_b.from > kWholeShare * center_b.length();
-    if (!whole) pair = {b, side, on_a.from, on_a.to, on_b.from, on_b.to, 0.0};
+    if (!whole) pair = {b, side, on_a.from, on_a.to, on_b.from, on_b.to};
   }
-  pair.offset = offsetBetween(center_a, center_b, pair);
   return pair;
 }
 

@@ -21,7 +21,6 @@ struct LanePair {
   LaneChange side = LaneChange::kNone;  ///< where `b` lies, seen from `a`
   double a_from = 0.0, a_to = 0.0;      ///< on `a` [m]
   double b_from = 0.0, b_to = 0.0;      ///< on `b` [m]
-  double offset = 0.0;                  ///< largest distance between the centre lines [m]
 
   /// The position on `b` abreast of `s` on `a`, and back.
   double toB(double s) const { return b_from + (s - a_from) * (b_to - b_from) / (a_to - a_from); }

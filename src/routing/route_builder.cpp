@@ -76,7 +76,10 @@ void addLabel(const LaneGraph& graph, const SearchLabel& label, Course* course) 
     course->changes.push_back({label.side, begin, pieces.back().x_to, label.change_length, pieces.size(), {}});
     beginPiece(label.lane, label.from_s, &pieces);
   }
-  if (label.move == Move::kContinue && label.lane != pieces.back().lane) beginPiece(label.lane, label.from_s, &pieces);
+  if (label.move == Move::kContinue) {
+    course->changes.back().length = label.change_length;
+    if (label.lane != pieces.back().lane) beginPiece(label.lane, label.from_s, &pieces);
+  }
   extendTo(label.s, &pieces);
 }
 
@@ -256,6 +259,7 @@ Route buildRoute(const LaneGraph& graph, const BlockedLanes& blocked, const std:
   Route route;
   route.steps = stepsOf(course);
   route.distance = labels.back().distance;
+  route.cost = labels.back().cost;
   route.start = static_cast<std::size_t>(labels.front().candidate);
   route.goal = static_cast<std::size_t>(labels.back().candidate);
   return route;

@@ -68,6 +68,11 @@ void warnOfTightChanges(const HdMap& map, double min_length, Route* route) {
 }  // namespace
 
 void RouterParams::validate() const {
+  for (const auto& [key, price] : {std::pair("lane_change_price", lane_change_price),
+                                   std::pair("tight_lane_change_price", tight_lane_change_price)}) {
+    if (price >= 0.0 && price <= 1e6) continue;  // false for NaN
+    throw InvalidParameter(text(key, " is ", price, "; it must lie in [0, 1000000] m"));
+  }
   if (!(min_lane_change_length >= 0.1 && min_lane_change_length <= 1000.0)) {
     throw InvalidParameter(
         text("min_lane_change_length is ", min_lane_change_length, "; it must lie in [0.1, 1000] m"));
@@ -79,7 +84,7 @@ void RouterParams::validate() const {
 
 struct Router::Impl {
   Impl(std::shared_ptr<const HdMap> hd_map, const RouterParams& router_params)
-      : map(std::move(hd_map)), params(router_params), graph(*map) {}
+      : map(std::move(hd_map)), params(router_params), graph(*map, params) {}
 
   std::shared_ptr<const HdMap> map;
   RouterParams params;
@@ -96,6 +101,7 @@ Router::~Router() = default;
 
 const HdMap& Router::map() const { return *impl_->map; }
 const std::shared_ptr<const HdMap>& Router::mapPtr() const { return impl_->map; }
+const RouterParams& Router::params() const { return impl_->params; }
 
 Route Router::findRoute(const RouteQuery& request, const CancelToken& cancel) const {
   const LaneGraph& graph = impl_->graph;

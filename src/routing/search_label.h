@@ -9,7 +9,7 @@ namespace external_command {
 
 /// What a search holds lane changes to.
 enum class ChangeRule {
-  kWithRoom,     ///< `min_lane_change_length`, or, at a price, what two arcs of the smallest turning radius need
+  kWithRoom,     ///< `min_lane_change_length`, or, at a price, what two arcs need (change_room.h)
   kWithoutRoom,  ///< no length at all: only tells why the other found nothing
 };
 

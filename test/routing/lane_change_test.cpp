@@ -98,26 +98,56 @@ TEST_F(TwoLanes, ChangesWhereTheLineCanBeCrossed) {
 
 TEST_F(TwoLanes, NeedsRoomForAChange) {
   params.min_lane_change_length = 20.0;
-  params.min_turning_radius = 30.0;  // two arcs need 20.2 m
+  params.min_turning_radius = 23.0;  // two arcs with their margin need 19.8 m
   EXPECT_TRUE(drive({"b1", 10}, {"a1", 30.1}).warnings.empty());
-  EXPECT_THAT_REFUSED(drive({"b1", 10}, {"a1", 29.9}), NoRoute, "a change needs 20.00 m (~min_lane_change_length)");
+  EXPECT_THAT_REFUSED(drive({"b1", 10}, {"a1", 29.7}), NoRoute, "a change needs 20.00 m (~min_lane_change_length)");
 }
 
 TEST_F(TwoLanes, ChangesInLessRoomThanItShouldHaveWhereNothingElseHelpsAndSaysSo) {
-  const Route route = drive({"b1", 10}, {"a1", 18});
+  const Route route = drive({"b1", 10}, {"a1", 19});
   ASSERT_EQ(route.warnings.size(), 1u);
-  EXPECT_EQ(route.warnings[0].find("the change from lane b1 to lane a1 has only 8.00 m of the 10.00 m"), 0u);
-  EXPECT_THAT_REFUSED(drive({"b1", 10}, {"a1", 17}), NoRoute, "turning radius of 5.00 m");
+  EXPECT_EQ(route.warnings[0].find("the change from lane b1 to lane a1 has only 9.00 m of the 10.00 m"), 0u);
+}
+
+TEST_F(TwoLanes, DoesNotChangeInLessRoomThanTheTurningCircleNeeds) {
+  //   two arcs of 5 m radius take 7.60 m; 8.67 m where they are to be driven into and out of
+  EXPECT_EQ(ids(drive({"b1", 10}, {"a1", 18.7})), "b1 a1");
+  EXPECT_THAT_REFUSED(drive({"b1", 10}, {"a1", 18.6}), NoRoute, "turning radius of 5.00 m");
+  params.min_turning_radius = 6.0;
+  EXPECT_THAT_REFUSED(drive({"b1", 10}, {"a1", 19}), NoRoute, "turning radius of 6.00 m");
+}
+
+TEST_F(TwoLanes, NeedsMoreRoomWhereTheLanesLieFurtherApart) {
+  for (const char* lane : {"b1", "b2", "b3"}) {
+    for (Point2d& point : builder[lane].center) point.y() -= 2.5;  // 6 m apart: two arcs take 10.7 m
+  }
+  EXPECT_TRUE(drive({"b1", 10}, {"a1", 20.8}).warnings.empty());
+  EXPECT_THAT_REFUSED(drive({"b1", 10}, {"a1", 20.6}), NoRoute, "no room to change lanes");
 }
 
 TEST_F(TwoLanes, DoesNotChangeInTooLittleRoomForASmallGain) {
-  //   Only the last 8 m of b1 can be crossed; by the bridge it is 24 m further to a2.
-  drawLine("a1", "b1", {{0, BoundaryType::kSolidWhite}, {92, BoundaryType::kDottedWhite}});
+  //   Only the last 9 m of b1 can be crossed; by the bridge it is 24 m further to a2.
+  params.lane_change_price = 0.0;
+  drawLine("a1", "b1", {{0, BoundaryType::kSolidWhite}, {91, BoundaryType::kDottedWhite}});
   drawLine("a2", "b2", {{0, BoundaryType::kSolidWhite}});
   builder.lane("bridge", std::vector<Point2d>{{100, 0}, {112, 2}, {100, kWidth}}).follow({"b1", "bridge", "a2"});
   EXPECT_EQ(ids(drive({"b1", 0}, {"a2", 50})), "b1 bridge a2");
   params.tight_lane_change_price = 20.0;
   EXPECT_EQ(ids(drive({"b1", 0}, {"a2", 50})), "b1 a1 a2");
+}
+
+TEST_F(TwoLanes, ChangesOnlyWhereThatSavesMoreThanItsPrice) {
+  //   The bridge leads from b1 to a2 as a change does, and is 24 m longer.
+  drawLine("a2", "b2", {{0, BoundaryType::kSolidWhite}});
+  builder.lane("bridge", std::vector<Point2d>{{100, 0}, {112, 2}, {100, kWidth}}).follow({"b1", "bridge", "a2"});
+  const Route around = drive({"b1", 0}, {"a2", 50});
+  EXPECT_EQ(ids(around), "b1 bridge a2");
+  EXPECT_NEAR(around.cost, around.distance, 1e-9);
+  params.lane_change_price = 20.0;
+  const Route across = drive({"b1", 0}, {"a2", 50});
+  EXPECT_EQ(ids(across), "b1 a1 a2");
+  EXPECT_NEAR(across.distance, 150.0, 1e-9) << "metres driven, without the price";
+  EXPECT_NEAR(across.cost, 170.0, 1e-9);
 }
 
 TEST_F(TwoLanes, PassesABlackListedPartOnTheLaneBesideIt) {
@@ -173,7 +203,7 @@ TEST(LaneChange, RunsOverManyShortPieces) {
   EXPECT_NEAR(route.distance, 58.0, 1e-9);
   EXPECT_TRUE(route.warnings.empty());
 
-  query.goals = {{laneIndex(*map, "a2"), 1.0}};  // 8 m away
+  query.goals = {{laneIndex(*map, "a2"), 2.0}};  // 9 m away
   EXPECT_EQ(router.findRoute(query, CancelToken()).warnings.size(), 1u);
   query.goals = {{laneIndex(*map, "a1"), 1.0}};  // 4 m away
   EXPECT_THROW(router.findRoute(query, CancelToken()), NoRoute);
@@ -200,8 +230,8 @@ TEST_F(ThreeLanes, SharesTheRoomBetweenTwoChanges) {
 
 TEST_F(ThreeLanes, NeedsRoomForEachOfTwoChanges) {
   EXPECT_TRUE(drive({"right", 0}, {"left", 20.1}).warnings.empty());
-  EXPECT_EQ(drive({"right", 0}, {"left", 16}).warnings.size(), 2u);
-  EXPECT_THAT_REFUSED(drive({"right", 0}, {"left", 15}), NoRoute, "no room to change lanes, from lane right");
+  EXPECT_EQ(drive({"right", 0}, {"left", 18}).warnings.size(), 2u);
+  EXPECT_THAT_REFUSED(drive({"right", 0}, {"left", 17}), NoRoute, "no room to change lanes, from lane right");
 }
 
 ///   long --------------------> 100 m      one lane beside two that follow each other, which the file states as two
@@ -233,12 +263,53 @@ TEST(LaneChange, CountsLanesSideBySideAsTheOneThatIsLeftLast) {
   builder.lane("outer2", {40, 40}, {40, 60}).lane("inner2", {40 - kWidth, 40}, {40 - kWidth, 60});
   builder.beside({"inner2", "outer2"}).follow({"outer", "outer2"}).follow({"inner", "inner2"});
   const auto map = builder.build();
-  const Router router(map, {});
+  RouterParams params;
+  params.lane_change_price = 0.0;
+  const Router router(map, params);
   const double inner = map->lane(laneIndex(*map, "inner")).length();
   const RouteQuery query{{{laneIndex(*map, "outer"), 0.0}}, {}, {{laneIndex(*map, "outer2"), 20.0}}, {}};
   const Route route = router.findRoute(query, CancelToken());
   EXPECT_TRUE(isConnected(route, *map));
   EXPECT_NEAR(route.distance, inner + 20.0, 1e-6) << "the inner lane is shorter, and there is room to return";
+}
+
+///   inner, outer: 40 m straight, a quarter of a circle of 9 and 12.5 m, 40 m straight
+class BendOfTwoLanes : public RoutingWorld {
+ protected:
+  BendOfTwoLanes() {
+    std::vector<Point2d> outer = {{0, 0}}, inner = {{0, kWidth}};
+    for (int i = 0; i <= 10; ++i) {
+      const Point2d outward = unitVector(-M_PI / 2.0 + 0.05 * M_PI * i), center(40.0, 9.0 + kWidth);
+      outer.push_back(center + (9.0 + kWidth) * outward);
+      inner.push_back(center + 9.0 * outward);
+    }
+    outer.emplace_back(49.0 + kWidth, 49.0 + kWidth);
+    inner.emplace_back(49.0, 49.0 + kWidth);
+    builder.lane("outer", outer).lane("inner", inner).beside({"inner", "outer"});
+  }
+};
+
+TEST_F(BendOfTwoLanes, AreChangedBeforeOrAfterTheBend) {
+  EXPECT_NO_THROW(drive({"outer", 20}, {"inner", 35}));
+  EXPECT_NO_THROW(drive({"outer", 42}, {"inner", 75})) << "in the straight after the bend";
+}
+
+TEST_F(BendOfTwoLanes, AreNotChangedInTheBend) {
+  EXPECT_THAT_REFUSED(drive({"outer", 41}, {"inner", 53}), NoRoute, "no room to change lanes");
+}
+
+///   ramp ----\___  comes up to road from 10 m beside it, and runs alongside from x = 60 m on
+///   road ---------------->
+TEST(LaneChange, NeedsTheRoomOfWhereItIsMade) {
+  MapBuilder builder;
+  builder.lane("ramp", std::vector<Point2d>{{0, 10 + kWidth}, {20, 10 + kWidth}, {60, kWidth}, {120, kWidth}});
+  builder.lane("road", {0, 0}, {120, 0}).beside({"ramp", "road"});
+  const auto map = builder.build();
+  const Router router(map, {});
+  const RouteQuery query{{{laneIndex(*map, "ramp"), 0.0}}, {}, {{laneIndex(*map, "road"), 12.0}}, {}};
+  EXPECT_THROW(router.findRoute(query, CancelToken()), NoRoute) << "over 13.5 m sideways";
+  const RouteQuery further{{{laneIndex(*map, "ramp"), 70.0}}, {}, {{laneIndex(*map, "road"), 80.0}}, {}};
+  EXPECT_TRUE(router.findRoute(further, CancelToken()).warnings.empty()) << "over 3.5 m";
 }
 
 }  // namespace

@@ -200,7 +200,7 @@ TEST_F(TwoLaneRoad, ChangesLanesInLessWhereThereIsLessRoom) {
 
 TEST_F(TwoLaneRoad, CanBeSteeredWhereAChangeHasNoMoreRoomThanTwoArcsNeed) {
   vehicle.min_turning_radius = params.min_turning_radius;
-  const Path change = path({"r1", 50}, {"l1", 58});
+  const Path change = path({"r1", 50}, {"l1", 58.7});
   EXPECT_LT(largestKappa(change), 1.2 * vehicle.maxKappa());
   EXPECT_NEAR(change.front().heading, 0.0, 0.1);
   EXPECT_NEAR(change.back().heading, 0.0, 0.1);

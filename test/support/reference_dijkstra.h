@@ -5,13 +5,10 @@
 
 namespace external_command {
 
-/// Driven distance from `start` to `goal`, the simplest way there is: Dijkstra over whole lanes, where a lane can be
-/// left for its neighbour only where it is entered, at no cost and in no room. Independent of Router.
+/// The cost of the cheapest route of `query`, the simplest way there is: Dijkstra over whole lanes, where a lane can be
+/// left for its neighbour only where it is entered, in no room and for `change_price` [m]. Lanes of which any part is
+/// black-listed do not exist. Independent of Router.
 /// @return infinity where there is no route.
-double referenceDistance(const HdMap& map, const LanePoint& start, const LanePoint& goal);
-
-/// The same, but lanes of which any part is in `black_list` do not exist.
-double referenceDistance(const HdMap& map, const LanePoint& start, const LanePoint& goal,
-                         const std::vector<LaneRange>& black_list);
+double referenceCost(const HdMap& map, const RouteQuery& query, double change_price);
 
 }  // namespace external_command

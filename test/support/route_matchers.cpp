@@ -120,6 +120,23 @@ AssertionResult isConnected(const Route& route, const HdMap& map) {
   return AssertionSuccess();
 }
 
+AssertionResult changesHaveRoom(const Route& route, const HdMap& map, double radius) {
+  for (std::size_t i = 0; i + 1 < route.steps.size(); ++i) {
+    const RouteStep& step = route.steps[i];
+    if (step.change_after == LaneChange::kNone) continue;
+    double room = 0.0;
+    for (const LaneRange& part : step.change_onto) room += part.to_s - part.from_s;
+    const Lane &old_lane = map.lane(step.lane), &new_lane = map.lane(route.steps[i + 1].lane);
+    const double offset = new_lane.center.project(old_lane.center.pointAt(step.to_s)).distance;
+    const double least = offset < 2.0 * radius ? std::sqrt(offset * (4.0 * radius - offset)) : 2.0 * radius;
+    if (room < least - kExact) {
+      return AssertionFailure() << "the change from " << old_lane.id << " to " << new_lane.id << ", " << offset
+                                << " m beside it, has " << room << " m of the " << least << " m it takes at least";
+    }
+  }
+  return AssertionSuccess();
+}
+
 AssertionResult avoids(const Route& route, const HdMap& map, const std::vector<LaneRange>& black_list) {
   for (const RouteStep& step : route.steps) {
     if (const auto free = isFree(rangeOf(step), map, black_list); !free) return free;

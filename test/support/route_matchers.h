@@ -15,6 +15,10 @@ namespace external_command {
 /// room of a change is connected too, and neighbour of a lane of that room.
 testing::AssertionResult isConnected(const Route& route, const HdMap& map);
 
+/// Each lane change has at least the length that two opposite arcs of `radius` [m] take over the distance of the two
+/// centre lines.
+testing::AssertionResult changesHaveRoom(const Route& route, const HdMap& map, double radius);
+
 /// No step, and no lane beside the room of a change, touches a part of the black list.
 testing::AssertionResult avoids(const Route& route, const HdMap& map, const std::vector<LaneRange>& black_list);
 

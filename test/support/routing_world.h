@@ -57,6 +57,7 @@ class RoutingWorld : public testing::Test {
     const Route route = router().findRoute(query, CancelToken());
     EXPECT_TRUE(isConnected(route, map()));
     EXPECT_TRUE(beginsAndEndsAsAsked(route, query));
+    EXPECT_TRUE(changesHaveRoom(route, map(), params.min_turning_radius));
     EXPECT_TRUE(avoids(route, map(), query.black_list));
     return route;
   }

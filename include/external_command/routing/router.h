@@ -51,17 +51,21 @@ struct RouteQuery {
 struct Route {
   std::vector<RouteStep> steps;  ///< never empty
   double distance = 0.0;         ///< driven [m]; lanes side by side count as the last one taken
+  double cost = 0.0;             ///< what the route was chosen by: `distance` and the prices of RouterParams [m]
   std::size_t start = 0;         ///< which of `starts` was taken
   std::size_t goal = 0;          ///< which of `goals` was taken
   std::vector<std::string> warnings;
 };
 
 struct RouterParams {
-  /// Shortest stretch along the road in which a change to the neighbour lane can be done [m].
+  /// A lane change is made only where it saves more than this [m].
+  double lane_change_price = 50.0;
+  /// Wished for a change to the neighbour lane, along the road [m].
   double min_lane_change_length = 10.0;
-  /// Of the vehicle. A change cannot be shorter than two arcs of this radius [m].
+  /// Of the vehicle. A change is never shorter than two opposite arcs over the lateral distance of the lanes, which
+  /// take at most four fifths of the curvature that this radius allows, less that of the lanes [m].
   double min_turning_radius = 5.0;
-  /// A change with less room than `min_lane_change_length` is taken only where it saves more than this [m].
+  /// A change with less room than `min_lane_change_length` is made only where it saves this much more [m].
   double tight_lane_change_price = 30.0;
 
   /// @throws InvalidParameter  out of range.
@@ -76,9 +80,10 @@ class Router {
 
   const HdMap& map() const;
   const std::shared_ptr<const HdMap>& mapPtr() const;
+  const RouterParams& params() const;
 
-  /// The shortest route by driven distance; among equals that with the fewest lane changes. A goal behind the start on
-  /// its own lane means a loop.
+  /// The cheapest route: metres driven, and a price for each lane change; among equals that with the fewest changes. A
+  /// goal behind the start on its own lane means a loop.
   /// @throws InvalidRequest  an end is missing, or `s` lies outside its lane by more than 1 mm.
   /// @throws NoRoute  the lanes exist but nothing connects them, or the black list cuts every connection; the text says
   ///                  which leg, how many candidates were tried, and whether it would work without the black list.
