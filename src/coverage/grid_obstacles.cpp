@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "geometry.h"
@@ -16,6 +15,7 @@ constexpr double kFinest = 0.2;     ///< side of the blocks that cells are taken
 constexpr double kNear = 1.0;       ///< cells farther from the area's box are left out [m]
 constexpr double kHullShare = 1.3;  ///< of an obstacle's area that its convex hull may have and be taken for it
 constexpr double kSmall = 3.0;      ///< an obstacle up to this size is taken as its hull [m]
+constexpr double kRoom = 6.0;       ///< free room inside an obstacle that is smaller holds no vehicle [m^2]
 
 using Block = std::pair<long, long>;  // row, column
 
@@ -34,9 +34,8 @@ class Outliner {
       runs.push_back(only(runShape(first.first, first.second, end)));
     }
     std::vector<Polygon> polygons;
-    for (const shapes::Shape& shape : unionOf(std::move(runs))) {
-      polygons.push_back(outlineOf(shape));
-    }
+    for (const shapes::Shape& shape : unionOf(std::move(runs))) addOutlines(shape, &polygons);
+    if (grid_.outside_is_blocked) addOutside(&polygons);
     return polygons;
   }
 
@@ -45,21 +44,68 @@ class Outliner {
 
   Point2d toMap(double x, double y) const { return compose(grid_.origin, {x, y, 0.0}).position(); }
 
+  bool isBlocked(int value) const { return value < 0 ? grid_.unknown_is_blocked : value >= grid_.blocked_from; }
+
   void findBlocks() {
     for (std::size_t i = 0; i < grid_.cells.size(); ++i) {
-      if (grid_.cells[i] < grid_.blocked_from) continue;
+      if (!isBlocked(grid_.cells[i])) continue;
       const auto column = static_cast<long>(i % grid_.width), row = static_cast<long>(i / grid_.width);
       const Point2d at = toMap((static_cast<double>(column) + 0.5) * grid_.resolution,
                                (static_cast<double>(row) + 0.5) * grid_.resolution);
       const bool is_near = ((at - box_.min).array() > -kNear).all() && ((box_.max - at).array() > -kNear).all();
-      if (is_near) blocks_.emplace(row / cells_, column / cells_);
+      const Block block{row / cells_, column / cells_};
+      if (is_near && (blocks_.empty() || blocks_.back() != block)) blocks_.push_back(block);
     }
+    std::sort(blocks_.begin(), blocks_.end());
+    blocks_.erase(std::unique(blocks_.begin(), blocks_.end()), blocks_.end());
   }
 
   shapes::Shape runShape(long row, long begin, long end) const {
     const double low = static_cast<double>(row) * side(), high = low + side();
     const double left = static_cast<double>(begin) * side(), right = static_cast<double>(end) * side();
     return shapeOf({toMap(left, low), toMap(right, low), toMap(right, high), toMap(left, high)});
+  }
+
+  /// A polygon has no holes: a shape around free room, a fence for example, is cut in two across it.
+  void addOutlines(const shapes::Shape& shape, std::vector<Polygon>* polygons) const {
+    const auto is_room = [](const auto& ring) {
+      return std::abs(areaOf(shapes::Ring(ring.begin(), ring.end()))) > kRoom;
+    };
+    const auto room = std::find_if(shape.inners().begin(), shape.inners().end(), is_room);
+    if (room == shape.inners().end()) return polygons->push_back(outlineOf(shape));
+    const BoundingBox outer = boxOf(shape.outer()), inner = boxOf(*room);
+    const double middle = 0.5 * (inner.min.y() + inner.max.y());
+    for (const auto& [low, high] : {std::pair(outer.min.y() - 1.0, middle), std::pair(middle, outer.max.y() + 1.0)}) {
+      const shapes::Shape half = shapeOf({{outer.min.x() - 1.0, low},
+                                          {outer.max.x() + 1.0, low},
+                                          {outer.max.x() + 1.0, high},
+                                          {outer.min.x() - 1.0, high}});
+      for (const shapes::Shape& part : intersection(only(shape), only(half))) addOutlines(part, polygons);
+    }
+  }
+
+  /// What lies beyond the grid's four sides, as far as the area goes.
+  void addOutside(std::vector<Polygon>* polygons) const {
+    const double width = grid_.width * grid_.resolution, height = grid_.height * grid_.resolution;
+    const Point2d middle = toMap(width / 2.0, height / 2.0);
+    const double reach = (box_.min - middle).cwiseAbs().cwiseMax((box_.max - middle).cwiseAbs()).norm();
+    const double factor = 1.0 + 2.0 * reach / std::min(width, height);
+    const Point2d corners[] = {toMap(0.0, 0.0), toMap(width, 0.0), toMap(width, height), toMap(0.0, height)};
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Point2d &a = corners[i], &b = corners[(i + 1) % 4];
+      const Point2d far_a = middle + factor * (a - middle), far_b = middle + factor * (b - middle);
+      polygons->push_back(Polygon({a, far_a, far_b, b}, "what lies beyond the grid"));
+    }
+  }
+
+  template <class Ring>
+  static BoundingBox boxOf(const Ring& ring) {
+    BoundingBox box{Point2d(ring[0].x(), ring[0].y()), Point2d(ring[0].x(), ring[0].y())};
+    for (const auto& point : ring) {
+      box.min = box.min.cwiseMin(Point2d(point.x(), point.y()));
+      box.max = box.max.cwiseMax(Point2d(point.x(), point.y()));
+    }
+    return box;
   }
 
   /// The convex hull where that takes little away; else the outline without its steps.
@@ -74,8 +120,8 @@ class Outliner {
 
   const OccupancyGrid& grid_;
   const BoundingBox& box_;
-  long cells_;  ///< in a block, along each side
-  std::set<Block> blocks_;
+  long cells_;                 ///< in a block, along each side
+  std::vector<Block> blocks_;  ///< in order
 };
 
 }  // namespace

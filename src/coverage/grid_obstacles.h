@@ -8,8 +8,8 @@
 
 namespace external_command {
 
-/// Outlines of the occupied cells near `within`, without the holes in them: a little larger than the cells, so that
-/// they can be simple.
+/// Outlines of the cells near `within` that are obstacles, and what lies beyond the grid where that is: a little larger
+/// than the cells, so that they can be simple, and without free room that is too small for a vehicle. They may touch.
 std::vector<Polygon> gridObstacles(const OccupancyGrid& grid, const Polygon& within);
 
 }  // namespace external_command

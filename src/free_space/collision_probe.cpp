@@ -92,7 +92,7 @@ std::string Collision::obstacle() const {
     case Kind::kNonDrivable:
       return text("non_drivable_roi[", index, "]");
     case Kind::kGrid:
-      return "the occupancy grid";
+      return "the obstacle grid";
     case Kind::kAxleBounds:
       break;
   }

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obstacle_edges.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
 
 #include "external_command/core/error.h"
 #include "external_command/core/text.h"
@@ -12,14 +16,20 @@ namespace {
 
 constexpr std::size_t kMaxEdges = 2'000'000;  ///< bounds the memory
 
-/// Reads cells by index; beyond the grid everything is unknown.
+/// The cells `[begin, end)` of one direction of a grid.
+struct CellRange {
+  long begin;
+  long end;
+};
+
+/// Reads cells by index.
 class GridView {
  public:
   explicit GridView(const OccupancyGrid& grid)
       : grid_(grid), width_(static_cast<long>(grid.width)), height_(static_cast<long>(grid.height)) {}
 
   bool isBlocked(long column, long row) const {
-    if (column < 0 || row < 0 || column >= width_ || row >= height_) return grid_.unknown_is_blocked;
+    if (column < 0 || row < 0 || column >= width_ || row >= height_) return grid_.outside_is_blocked;
     const int value = grid_.cells[static_cast<std::size_t>(row * width_ + column)];
     return value < 0 ? grid_.unknown_is_blocked : value >= grid_.blocked_from;
   }
@@ -27,8 +37,26 @@ class GridView {
   bool isBlocked(const Point2d& point) const {
     const Pose2d seen = relativeTo(grid_.origin, {point.x(), point.y(), 0.0});
     const double column = std::floor(seen.x / grid_.resolution), row = std::floor(seen.y / grid_.resolution);
-    if (std::abs(column) > 1e9 || std::abs(row) > 1e9) return grid_.unknown_is_blocked;
+    if (std::abs(column) > 1e9 || std::abs(row) > 1e9) return grid_.outside_is_blocked;
     return isBlocked(static_cast<long>(column), static_cast<long>(row));
+  }
+
+  /// The columns and rows that a box of the map reaches into.
+  std::pair<CellRange, CellRange> within(const BoundingBox& box) const {
+    Point2d low = Point2d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    for (const double x : {box.min.x(), box.max.x()}) {
+      for (const double y : {box.min.y(), box.max.y()}) {
+        const Point2d cell = relativeTo(grid_.origin, {x, y, 0.0}).position() / grid_.resolution;
+        low = low.cwiseMin(cell);
+        high = high.cwiseMax(cell);
+      }
+    }
+    const auto range = [](double from, double to, long count) {
+      const auto most = static_cast<double>(count);
+      return CellRange{static_cast<long>(std::clamp(std::floor(from), 0.0, most)),
+                       static_cast<long>(std::clamp(std::ceil(to), 0.0, most))};
+    };
+    return {range(low.x(), high.x(), width_), range(low.y(), high.y(), height_)};
   }
 
  private:
@@ -67,14 +95,18 @@ void LocalObstacles::addGrid(const OccupancyGrid& grid, const Checkpoint& checkp
   const Point2d along = grid.resolution * unitVector(grid.origin.heading);
   const Point2d across(-along.y(), along.x());
   const Point2d corner = grid.origin.position() - origin_;
+  CellRange columns{0, static_cast<long>(grid.width)}, rows{0, static_cast<long>(grid.height)};
+  // What lies outside the border to stay within is out of reach.
+  if (region_->drivable()) std::tie(columns, rows) = view.within(region_->drivable()->box());
   // Borders between a free and a blocked cell, joined to runs: first the lines along x, then those along y.
-  const auto addLines = [&](long lines, long cells, const Point2d& line_step, const Point2d& cell_step, auto differs) {
-    for (long line = 0; line <= lines; ++line) {
+  const auto addLines = [&](CellRange lines, CellRange cells, const Point2d& line_step, const Point2d& cell_step,
+                            auto differs) {
+    for (long line = lines.begin; line <= lines.end; ++line) {
       checkpoint();
       requireFewEdges();
-      for (long cell = 0; cell < cells;) {
+      for (long cell = cells.begin; cell < cells.end;) {
         const long begin = cell;
-        while (cell < cells && differs(line, cell)) ++cell;
+        while (cell < cells.end && differs(line, cell)) ++cell;
         if (cell == begin) {
           ++cell;
           continue;
@@ -85,9 +117,9 @@ void LocalObstacles::addGrid(const OccupancyGrid& grid, const Checkpoint& checkp
       }
     }
   };
-  addLines(grid.height, grid.width, across, along,
+  addLines(rows, columns, across, along,
            [&](long row, long column) { return view.isBlocked(column, row - 1) != view.isBlocked(column, row); });
-  addLines(grid.width, grid.height, along, across,
+  addLines(columns, rows, along, across,
            [&](long column, long row) { return view.isBlocked(column - 1, row) != view.isBlocked(column, row); });
 }
 
@@ -108,7 +140,7 @@ bool LocalObstacles::isFilledBy(int source, const Point2d& local) const {
 }
 
 bool LocalObstacles::isOutsideFilled() const {
-  return region_->drivable() || (region_->grid() && region_->grid()->unknown_is_blocked);
+  return region_->drivable() || (region_->grid() && region_->grid()->outside_is_blocked);
 }
 
 }  // namespace external_command

@@ -39,7 +39,7 @@ class LocalObstacles {
   /// Whether `source` fills the point.
   bool isFilledBy(int source, const Point2d& local) const;
 
-  /// True where everything far outside is filled: a drivable border, or a grid beyond which all is unknown.
+  /// True where everything far outside is filled: a drivable border, or a grid beyond which all is blocked.
   bool isOutsideFilled() const;
 
  private:

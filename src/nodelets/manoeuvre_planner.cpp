@@ -20,9 +20,11 @@ struct ManoeuvrePlanner::LatestGrid {
 
 namespace {
 
-OccupancyGrid toGrid(const nav_msgs::OccupancyGrid& message, const Pose2d& frame) {
+OccupancyGrid toGrid(const nav_msgs::OccupancyGrid& message, const Pose2d& frame, const ObstacleGridParams& params) {
   const auto& origin = message.info.origin;
   OccupancyGrid grid;
+  grid.unknown_is_blocked = params.unknown_is_blocked;
+  grid.outside_is_blocked = params.outside_is_blocked;
   grid.resolution = message.info.resolution;
   grid.width = message.info.width;
   grid.height = message.info.height;
@@ -65,36 +67,43 @@ ManoeuvrePlanner::ManoeuvrePlanner(ros::NodeHandle nh, const ParameterReader& re
     : context_(context),
       params_(readFreeSpaceParams(reader.within("free_space"))),
       latest_grid_(std::make_shared<LatestGrid>()) {
-  reader.readName("obstacle_grid_name", &grid_topic_);
-  reader.readWithin("max_grid_age", 0.01, 3600.0, &max_grid_age_);
-  if (grid_topic_.empty()) return;
+  reader.readName("obstacle_grid_name", &grid_params_.topic);
+  reader.readWithin("max_grid_age", 0.0, 86400.0, &grid_params_.max_age);
+  reader.read("grid_unknown_is_blocked", &grid_params_.unknown_is_blocked);
+  reader.read("grid_outside_is_blocked", &grid_params_.outside_is_blocked);
+  if (grid_params_.topic.empty()) return;
   nh.setCallbackQueue(context.housekeeping().queue());
   const boost::function<void(const nav_msgs::OccupancyGrid::ConstPtr&)> keep =
       [latest = latest_grid_](const nav_msgs::OccupancyGrid::ConstPtr& message) {
         const std::lock_guard<std::mutex> lock(latest->mutex);
         latest->message = message;
       };
-  grid_subscriber_ = nh.subscribe<nav_msgs::OccupancyGrid>(grid_topic_, 1, keep);
+  grid_subscriber_ = nh.subscribe<nav_msgs::OccupancyGrid>(grid_params_.topic, 1, keep);
 }
 
 ManoeuvrePlanner::~ManoeuvrePlanner() = default;
 
 std::optional<OccupancyGrid> ManoeuvrePlanner::grid() const {
-  if (grid_topic_.empty()) return std::nullopt;
+  const std::string& topic = grid_params_.topic;
+  if (topic.empty()) return std::nullopt;
   nav_msgs::OccupancyGrid::ConstPtr message;
   {
     const std::lock_guard<std::mutex> lock(latest_grid_->mutex);
     message = latest_grid_->message;
   }
   if (!message) {
-    throw NotReady(text("no obstacle grid has come on ", grid_topic_, " (~obstacle_grid_name); is it published?"));
+    throw NotReady(text("no obstacle grid has come on ", topic, " (~obstacle_grid_name); is it published?"));
   }
   const double age = (ros::Time::now() - message->header.stamp).toSec();
-  if (!message->header.stamp.isZero() && age > max_grid_age_) {
-    throw NotReady(text("the obstacle grid on ", grid_topic_, " is ", age, " s old; the limit is ", max_grid_age_,
-                        " s (~max_grid_age)"));
+  if (!message->header.stamp.isZero() && grid_params_.max_age > 0.0 && age > grid_params_.max_age) {
+    throw NotReady(text("the obstacle grid on ", topic, " is ", seconds(age), " old; the limit is ",
+                        seconds(grid_params_.max_age), " (~max_grid_age; 0 takes it at any age)"));
   }
-  return toGrid(*message, context_.vehiclePose().ofFrame(message->header.frame_id));
+  try {
+    return toGrid(*message, context_.vehiclePose().ofFrame(message->header.frame_id), grid_params_);
+  } catch (const InvalidRequest& error) {
+    throw NotReady(text("the obstacle grid on ", topic, " cannot be placed: ", error.what()));
+  }
 }
 
 Region ManoeuvrePlanner::regionOf(Region::Parts parts) const {

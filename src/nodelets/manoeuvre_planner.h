@@ -13,11 +13,19 @@
 
 namespace external_command {
 
+/// How a processor takes the live obstacle grid.
+struct ObstacleGridParams {
+  std::string topic;                ///< empty: there is none
+  double max_age = 2.0;             ///< an older grid counts as missing [s]; 0: none does
+  bool unknown_is_blocked = true;   ///< see OccupancyGrid
+  bool outside_is_blocked = false;  ///< see OccupancyGrid
+};
+
 /// The free-space planner as processors use it: with parameters, the live obstacle grid, and a display of what stood in
 /// the way. Thread-safe.
 class ManoeuvrePlanner {
  public:
-  /// Reads the parameters `free_space/...` and `obstacle_grid_name` (empty: no grid) of a processor.
+  /// Reads the parameters `free_space/...` of a processor, and those of ObstacleGridParams.
   /// @throws InvalidParameter
   ManoeuvrePlanner(ros::NodeHandle nh, const ParameterReader& reader, ProcessContext& context);
   ~ManoeuvrePlanner();
@@ -45,8 +53,7 @@ class ManoeuvrePlanner {
 
   ProcessContext& context_;
   FreeSpaceParams params_;
-  double max_grid_age_ = 2.0;  ///< an older grid counts as missing [s]
-  std::string grid_topic_;
+  ObstacleGridParams grid_params_;
   std::shared_ptr<LatestGrid> latest_grid_;
   ros::Subscriber grid_subscriber_;
 };

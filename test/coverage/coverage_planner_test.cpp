@@ -199,10 +199,41 @@ OccupancyGrid gridWithObstacle() {
 TEST(CoveragePlanner, KeepsOutOfOccupiedCells) {
   CoverageArea area{box(0, 0, 40, 30), {}};
   area.grid = gridWithObstacle();
+  area.grid->unknown_is_blocked = false;
   const CoverageResult result = planned(area);
   EXPECT_TRUE(isDrivable(result.path, {box(0, 0, 40, 30), {box(20, 15, 23, 16)}}));
   EXPECT_NEAR(result.free_area, 1200.0 - 3.0, 5.0);
   EXPECT_GT(result.coverage_ratio, 0.95) << "cells that are unknown are swept";
+}
+
+TEST(CoveragePlanner, KeepsOutOfUnknownCellsUnlessToldOtherwise) {
+  CoverageArea area{box(0, 0, 40, 30), {}};
+  area.grid = gridWithObstacle();
+  const CoverageResult result = planned(area);
+  EXPECT_TRUE(isDrivable(result.path, {box(0, 0, 40, 30), {box(20, 15, 23, 16), box(25, 5, 37.5, 25)}}));
+  EXPECT_NEAR(result.free_area, 1200.0 - 3.0 - 250.0, 20.0);
+}
+
+TEST(CoveragePlanner, SweepsBeyondASmallGridUnlessToldOtherwise) {
+  CoverageArea area{box(0, 0, 40, 30), {}};
+  area.grid = gridWithObstacle();
+  area.grid->origin = {1.0, 1.0, 0.1};
+  area.grid->width = area.grid->height = 60;  // 15 m to either side
+  area.grid->cells.assign(60 * 60, 0);
+  EXPECT_GT(planned(area).covered_area, 1100.0);
+  area.grid->outside_is_blocked = true;
+  EXPECT_NEAR(planned(area).free_area, 15.0 * 15.0, 3.0);
+}
+
+TEST(CoveragePlanner, SweepsInsideAFenceOfTheGrid) {
+  CoverageArea area{box(0, 0, 40, 30), {}};
+  area.grid = gridWithObstacle();
+  area.grid->cells.assign(160 * 120, 0);
+  for (unsigned x = 0; x < 160; ++x) area.grid->cells[x] = area.grid->cells[119 * 160 + x] = 100;
+  for (unsigned y = 0; y < 120; ++y) area.grid->cells[160 * y] = area.grid->cells[160 * y + 159] = -1;
+  const CoverageResult result = planned(area);
+  EXPECT_NEAR(result.free_area, 39.5 * 29.5, 30.0);
+  EXPECT_TRUE(isDrivable(result.path, {box(0.25, 0.25, 39.75, 29.75), {}}));
 }
 
 TEST(CoveragePlanner, RefusesAGridThatHoldsFewerCellsThanItSays) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <utility>
 
 #include "external_command/core/error.h"
 #include "external_command/free_space/reeds_shepp.h"
@@ -159,10 +160,11 @@ OccupancyGrid randomGrid(unsigned seed, double heading) {
 
 TEST(CollisionChecker, AgreesWithPlainGeometryOnTurnedGrids) {
   for (const double heading : {0.0, 0.6, -2.3}) {
-    for (const bool unknown_is_blocked : {true, false}) {
+    for (const auto& [unknown, outside] : {std::pair{true, true}, {true, false}, {false, true}, {false, false}}) {
       Region::Parts parts;
       parts.grid = randomGrid(8, heading);
-      parts.grid->unknown_is_blocked = unknown_is_blocked;
+      parts.grid->unknown_is_blocked = unknown;
+      parts.grid->outside_is_blocked = outside;
       const Pose2d middle = compose(parts.grid->origin, {10.0, 7.5, 0.0});
       expectSameAsReference(Region(parts), 0.1, poses(9, 40, middle.position(), 12.0));
     }
@@ -174,6 +176,15 @@ TEST(CollisionChecker, SeesAGridAndPolygonsTogether) {
   parts.grid = randomGrid(10, 0.4);
   parts.non_drivable = clutter(11, 5, {10, 5});
   expectSameAsReference(Region(parts), 0.05, poses(12, 40, {10, 5}, 12.0));
+}
+
+TEST(CollisionChecker, SeesOfAGridWhatLiesWithinTheBorder) {
+  for (const double heading : {0.0, 0.7}) {
+    Region::Parts parts;
+    parts.grid = randomGrid(13, heading);
+    parts.drivable = Polygon({{4, -3}, {14, -2}, {13, 6}, {5, 5}}, "a yard");
+    expectSameAsReference(Region(parts), 0.05, poses(14, 60, {9, 1}, 6.0));
+  }
 }
 
 TEST(Region, RefusesAGridThatDoesNotFitItsSize) {

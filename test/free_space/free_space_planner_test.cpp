@@ -333,6 +333,7 @@ TEST(FreeSpacePlanner, SeesObstaclesOfATurnedGrid) {
   parts.grid->resolution = 0.25;
   parts.grid->width = parts.grid->height = 120;
   parts.grid->origin = {-3.0, -8.0, 0.35};
+  parts.grid->outside_is_blocked = true;  // else the way leads around the grid
   parts.grid->cells.assign(120 * 120, 0);
   for (std::size_t row = 0; row < 120; ++row) {
     if (row < 50 || row > 64) parts.grid->cells[row * 120 + 62] = 100;

@@ -49,7 +49,7 @@ double distanceToFilled(const Ring& footprint, const Ring& obstacle) {
 double distanceToCells(const Ring& footprint, const OccupancyGrid& grid) {
   double best = std::numeric_limits<double>::infinity();
   const auto isBlocked = [&](long column, long row) {
-    if (column < 0 || row < 0 || column >= long{grid.width} || row >= long{grid.height}) return grid.unknown_is_blocked;
+    if (column < 0 || row < 0 || column >= long{grid.width} || row >= long{grid.height}) return grid.outside_is_blocked;
     const int value = grid.cells[static_cast<std::size_t>(row * long{grid.width} + column)];
     return value < 0 ? grid.unknown_is_blocked : value >= grid.blocked_from;
   };

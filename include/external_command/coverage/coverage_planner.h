@@ -21,8 +21,7 @@ namespace external_command {
 struct CoverageArea {
   Polygon outer;
   std::vector<Polygon> holes;
-  /// Occupied cells are holes too. Unknown ones are not, nor is what lies beyond the grid: a vehicle does not see the
-  /// whole of a large area from its start.
+  /// What it blocks are holes too.
   std::optional<OccupancyGrid> grid = std::nullopt;
 };
 

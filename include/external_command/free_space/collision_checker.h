@@ -22,7 +22,7 @@ struct Collision {
   double depth = 0.0;     ///< about how far the footprint must move to be `margin` away from it, positive [m]
   Point2d at{0.0, 0.0};   ///< a point of the obstacle in the footprint, or nearest to it
 
-  /// "drivable_roi", "non_drivable_roi[2]", "the occupancy grid", "the axle bounds".
+  /// "drivable_roi", "non_drivable_roi[2]", "the obstacle grid", "the axle bounds".
   std::string obstacle() const;
 };
 

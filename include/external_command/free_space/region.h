@@ -11,15 +11,16 @@
 
 namespace external_command {
 
-/// Obstacles seen by sensors, the meaning of `nav_msgs/OccupancyGrid`. What lies beyond the grid counts as unknown.
+/// Obstacles seen by sensors, the meaning of `nav_msgs/OccupancyGrid`.
 struct OccupancyGrid {
-  double resolution = 0.0;         ///< side of a cell [m]
-  std::uint32_t width = 0;         ///< cells along the grid's x
-  std::uint32_t height = 0;        ///< cells along the grid's y
-  Pose2d origin;                   ///< of the outer corner of cell (0, 0); the heading turns the whole grid
-  std::vector<std::int8_t> cells;  ///< row by row along x: -1 unknown, 0 free ... 100 occupied
-  int blocked_from = 50;           ///< cells with this value or more are obstacles, in [1, 100]
-  bool unknown_is_blocked = true;  ///< cells below 0, and everything beyond the grid, are obstacles
+  double resolution = 0.0;          ///< side of a cell [m]
+  std::uint32_t width = 0;          ///< cells along the grid's x
+  std::uint32_t height = 0;         ///< cells along the grid's y
+  Pose2d origin;                    ///< of the outer corner of cell (0, 0); the heading turns the whole grid
+  std::vector<std::int8_t> cells;   ///< row by row along x: -1 unknown, 0 free ... 100 occupied
+  int blocked_from = 50;            ///< cells with this value or more are obstacles, in [1, 100]
+  bool unknown_is_blocked = true;   ///< cells below 0 are obstacles
+  bool outside_is_blocked = false;  ///< so is everything beyond the grid
 };
 
 /// Where a vehicle may be. Immutable and thread-safe; far from the origin nothing is lost.
