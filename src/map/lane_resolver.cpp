@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "external_command/core/text.h"
+#include "lane_heights.h"
 #include "map_resolver.h"
 #include "warning_counter.h"
 
@@ -18,6 +19,11 @@ const Point2d* findImplausible(const std::vector<Point2d>& points) {
   return found == points.end() ? nullptr : &*found;
 }
 
+/// A map without heights states 0 throughout.
+bool hasHeights(const LaneData& lane) {
+  return std::any_of(lane.heights.begin(), lane.heights.end(), [](float z) { return z != 0.0F; });
+}
+
 bool isUsable(double value) { return std::isfinite(value) && value >= 0.0; }
 
 /// Turns LaneData into Lane: first each lane by itself, then, once every id is known, the references.
@@ -28,6 +34,7 @@ class LaneResolver {
   void run() {
     // The look-up table refers to the ids of the lanes, which therefore must not move.
     map_.lanes.reserve(data_.lanes.size());
+    has_heights_ = std::any_of(data_.lanes.begin(), data_.lanes.end(), hasHeights);
     for (LaneData& lane : data_.lanes) addLane(&lane);
     for (std::size_t i = 0; i < map_.lanes.size(); ++i) resolveReferences(i);
     deriveLinks();
@@ -53,6 +60,7 @@ class LaneResolver {
 
   MapData& data_;
   MapContent& map_;
+  bool has_heights_ = false;
   std::vector<const LaneData*> sources_;  // of each lane, for its references
   WarningCounter unusable_{"lanes dropped that cannot be used"};
   WarningCounter repeated_{"lanes dropped whose id an earlier lane has"};
@@ -70,7 +78,9 @@ void LaneResolver::addLane(LaneData* lane) {
   if (!clean(lane)) return;
   if (map_.lane_by_id.count(lane->id) > 0) return repeated_.add(lane->id);
   try {
-    Polyline center(std::move(lane->center));
+    std::vector<HeightSample> heights;
+    if (has_heights_) heights = heightProfile(lane->center, lane->heights);
+    Polyline center(lane->center);
     if (std::abs(center.length() - lane->length) > kLengthTolerance) {
       lengths_.add(lane->id, ": ", metres(lane->length), " stated, ", metres(center.length()), " measured");
     }
@@ -91,7 +101,8 @@ void LaneResolver::addLane(LaneData* lane) {
                           {},
                           {},
                           "",
-                          std::move(lane->junction)});
+                          std::move(lane->junction),
+                          std::move(heights)});
   } catch (const std::invalid_argument& error) {
     return unusable_.add(lane->id, ": the centre line has ", error.what());
   }

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unordered_set>
+#include <tuple>
+#include <utility>
 
 namespace external_command {
 
@@ -13,28 +14,65 @@ namespace {
 /// Rounding must not lose a lane that lies exactly at a limit.
 constexpr double kTolerance = 1e-9;
 
-double squaredDistance(const Point2d& point, const std::vector<Point2d>& line, const LanePiece& piece) {
+/// A segment of a lane's centre line, and the squared distance to it [m^2].
+struct NearSegment {
+  LaneIndex lane = 0;
+  std::size_t first = 0;  // point of the centre line
   double squared = std::numeric_limits<double>::infinity();
-  for (std::size_t i = piece.first; i < piece.last; ++i) {
-    squared = std::min(squared, (point - nearestOnSegment(point, line[i], line[i + 1])).squaredNorm());
-  }
-  return squared;
+};
+
+double headingOfSegment(const std::vector<Point2d>& line, std::size_t first) {
+  return headingOf(line[first + 1] - line[first]);
 }
 
-/// nullopt where the lane's heading does not satisfy `query`.
-std::optional<LaneMatch> match(const MapContent& map, LaneIndex index, const Point2d& point, const LaneQuery& query) {
-  const Polyline& center = map.lanes[index].center;
-  const FrenetPoint frenet = center.project(point);
-  const double heading = center.headingAt(frenet.s);
-  if (query.heading) {
-    const double difference = std::abs(angleBetween(*query.heading, heading));
-    if (!(difference <= query.max_heading_difference + kTolerance)) return std::nullopt;
+bool fits(const LaneQuery& query, const std::vector<Point2d>& line, std::size_t first) {
+  if (!query.heading) return true;
+  const double difference = std::abs(angleBetween(*query.heading, headingOfSegment(line, first)));
+  return difference <= query.max_heading_difference + kTolerance;  // false for NaN
+}
+
+/// The nearest segment of the piece that has a fitting heading.
+NearSegment nearestOf(const std::vector<Point2d>& line, const LanePiece& piece, const Point2d& point,
+                      const LaneQuery& query) {
+  NearSegment nearest{piece.lane};
+  for (std::size_t i = piece.first; i < piece.last; ++i) {
+    const double squared = (point - nearestOnSegment(point, line[i], line[i + 1])).squaredNorm();
+    if (squared < nearest.squared && fits(query, line, i)) nearest = {piece.lane, i, squared};
   }
-  return LaneMatch{index, frenet, heading};
+  return nearest;
+}
+
+LaneMatch matchOf(const MapContent& map, const NearSegment& segment, const Point2d& point) {
+  const Polyline& center = map.lanes[segment.lane].center;
+  const Point2d &begin = center.points()[segment.first], &end = center.points()[segment.first + 1];
+  const Point2d foot = nearestOnSegment(point, begin, end);
+  const FrenetPoint frenet{center.arcLengths()[segment.first] + (foot - begin).norm(),
+                           cross((end - begin).normalized(), point - foot), std::sqrt(segment.squared)};
+  return {segment.lane, frenet, headingOfSegment(center.points(), segment.first)};
+}
+
+/// One match for each stretch of the lane that lies within `bound` [m^2] and has a fitting heading.
+void addMatches(const MapContent& map, LaneIndex lane, const Point2d& point, const LaneQuery& query, double bound,
+                std::vector<LaneMatch>* matches) {
+  const std::vector<Point2d>& line = map.lanes[lane].center.points();
+  NearSegment nearest;
+  const auto end_stretch = [&] {
+    if (std::isfinite(nearest.squared)) matches->push_back(matchOf(map, nearest, point));
+    nearest = {};
+  };
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const double squared = (point - nearestOnSegment(point, line[i], line[i + 1])).squaredNorm();
+    if (!(squared <= bound && fits(query, line, i))) {
+      end_stretch();
+    } else if (squared < nearest.squared) {
+      nearest = {lane, i, squared};
+    }
+  }
+  end_stretch();
 }
 
 bool isNearer(const LaneMatch& a, const LaneMatch& b) {
-  return a.frenet.distance != b.frenet.distance ? a.frenet.distance < b.frenet.distance : a.lane < b.lane;
+  return std::tuple(a.frenet.distance, a.lane, a.frenet.s) < std::tuple(b.frenet.distance, b.lane, b.frenet.s);
 }
 
 /// Squared radius of the search [m^2]; negative where nothing can match.
@@ -44,50 +82,42 @@ double searchBound(const Point2d& point, const LaneQuery& query) {
   return reach * reach;
 }
 
-/// Calls `visit(lane, squared_distance, bound)` for every piece of a lane within the bound.
+/// Calls `visit(segment, bound)` for the nearest segment of every piece of a lane within the bound.
 template <class Visit>
 void visitLanes(const MapContent& map, const Point2d& point, const LaneQuery& query, const Visit& visit) {
   map.tree.visitNear(point, searchBound(point, query), [&](const LanePiece& piece, double bound) {
     const Lane& lane = map.lanes[piece.lane];
     if (query.drivable_only && !lane.isDrivable()) return bound;
-    const double squared = squaredDistance(point, lane.center.points(), piece);
-    return squared <= bound ? visit(piece.lane, squared, bound) : bound;
+    const NearSegment nearest = nearestOf(lane.center.points(), piece, point, query);
+    return nearest.squared <= bound ? visit(nearest, bound) : bound;
   });
 }
 
 }  // namespace
 
 std::optional<LaneMatch> nearestLane(const MapContent& map, const Point2d& point, const LaneQuery& query) {
-  std::optional<LaneIndex> best;
-  std::unordered_set<LaneIndex> refused;
-  visitLanes(map, point, query, [&](LaneIndex lane, double squared, double bound) {
-    if (best && (lane == *best || (squared == bound && lane > *best))) return squared;
-    if (query.heading) {
-      // The whole lane has the word: a piece of it may lie in the right direction where the foot point does not.
-      if (refused.count(lane) > 0) return bound;
-      if (!match(map, lane, point, query)) {
-        refused.insert(lane);
-        return bound;
-      }
-    }
-    best = lane;
-    return squared;
+  std::optional<NearSegment> best;
+  visitLanes(map, point, query, [&](const NearSegment& segment, double bound) {
+    const bool is_later = best && segment.squared == best->squared &&
+                          std::pair(segment.lane, segment.first) > std::pair(best->lane, best->first);
+    if (is_later) return bound;
+    best = segment;
+    return segment.squared;
   });
-  return best ? match(map, *best, point, query) : std::nullopt;
+  if (!best) return std::nullopt;
+  return matchOf(map, *best, point);
 }
 
 std::vector<LaneMatch> lanesWithin(const MapContent& map, const Point2d& point, const LaneQuery& query) {
   std::vector<LaneIndex> near;
-  visitLanes(map, point, query, [&](LaneIndex lane, double, double bound) {
-    near.push_back(lane);
+  visitLanes(map, point, query, [&](const NearSegment& segment, double bound) {
+    near.push_back(segment.lane);
     return bound;
   });
   std::sort(near.begin(), near.end());
   near.erase(std::unique(near.begin(), near.end()), near.end());
   std::vector<LaneMatch> matches;
-  for (const LaneIndex lane : near) {
-    if (const auto candidate = match(map, lane, point, query)) matches.push_back(*candidate);
-  }
+  for (const LaneIndex lane : near) addMatches(map, lane, point, query, searchBound(point, query), &matches);
   std::sort(matches.begin(), matches.end(), isNearer);
   return matches;
 }

@@ -23,6 +23,16 @@ std::vector<Point2d> pointsOf(const proto::Curve& curve) {
   return points;
 }
 
+std::vector<float> heightsOf(const proto::Curve& curve) {
+  std::vector<float> heights;
+  for (const proto::CurveSegment& segment : curve.segment()) {
+    for (const proto::PointENU& point : segment.line_segment().point()) {
+      heights.push_back(static_cast<float>(point.z()));
+    }
+  }
+  return heights;
+}
+
 template <class Ids>
 std::vector<std::string> textsOf(const Ids& ids) {
   std::vector<std::string> texts;
@@ -157,6 +167,7 @@ void ProtoConverter::addLane(const proto::Lane& message) {
   LaneData& lane = data_.lanes.back();
   lane.id = message.id().id();
   lane.center = pointsOf(message.central_curve());
+  lane.heights = heightsOf(message.central_curve());
   lane.left = boundaryOf(message.left_boundary());
   lane.right = boundaryOf(message.right_boundary());
   lane.left_widths = widthsOf(message.left_sample());

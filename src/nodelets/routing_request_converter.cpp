@@ -121,7 +121,7 @@ Pose RoutingRequestConverter::onLane(const LaneWaypoint& way_point, const Pose2d
   for (const double s : {point.s, std::clamp(point.s, margin, lane.length() - margin)}) {
     Pose2d pose = lane.center.poseAt(s);
     pose.heading = normalizeAngle(pose.heading + turn);
-    if (tool.fromPose(pose.position(), pose.heading, name).lane == point.lane) return toMsg(pose);
+    if (tool.fromPose(pose.position(), pose.heading, name).front().lane == point.lane) return toMsg(pose);
   }
   ROS_WARN_STREAM(name << ": another lane of the map lies on top of " << lane.id << " at " << at(exact)
                        << "; the route may take either");

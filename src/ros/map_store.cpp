@@ -27,7 +27,8 @@ std::shared_ptr<const Router> load(const std::string& file, const MapOrigin& ori
 
 std::string keyOf(const std::string& file, const MapOrigin& origin, const RouterParams& params) {
   return text(file, "|", static_cast<int>(origin.kind), "|", origin.point.x(), "|", origin.point.y(), "|",
-              params.lane_change_price, "|", params.min_lane_change_length, "|", params.tight_lane_change_price, "|", params.min_turning_radius);
+              params.lane_change_price, "|", params.min_lane_change_length, "|", params.tight_lane_change_price, "|",
+              params.min_turning_radius, "|", params.stopping_error);
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ void MotionFlow::addRoute(const RoutingTask& task, double target_speed, const Ca
       referencePath(map, *plan->route, context_.params().vehicle, context_.params().reference_path, target_speed);
   RoutingResponse& response = plan->command.lane_follow_command;
   response = toRoutingResponse(map, *plan->route);
-  response.routing_request = task.request;
+  response.routing_request = requestOf(map, task, *plan->route);
   response.map_version = map.version();
   plan->command.has_lane_follow_command = true;
   plan->scene.way_points = task.way_points;

@@ -160,6 +160,7 @@ RouterParams readRouterParams(const ParameterReader& reader) {
   reader.read("min_lane_change_length", &params.min_lane_change_length);
   reader.readWithin("lane_change_price", 0.0, 1e6, &params.lane_change_price);
   reader.readWithin("tight_lane_change_price", 0.0, 1e6, &params.tight_lane_change_price);
+  reader.read("stopping_error", &params.stopping_error);
   reader.validate(params);
   return params;
 }
@@ -168,6 +169,11 @@ LaneWayParams readLaneWayParams(const ParameterReader& reader) {
   LaneWayParams params;
   reader.read("snap_distance", &params.snap_distance);
   reader.read("snap_heading", &params.snap_heading);
+  reader.read("max_goal_distance", &params.max_goal_distance);
+  reader.read("lane_keeping_error", &params.lane_keeping_error);
+  reader.read("height_error", &params.height_error);
+  reader.read("off_lane_price", &params.off_lane_price);
+  reader.read("off_heading_price", &params.off_heading_price);
   reader.read("off_lane_distance", &params.off_lane_distance);
   reader.read("off_lane_heading", &params.off_lane_heading);
   reader.read("park_and_go_radius", &params.park_and_go_radius);

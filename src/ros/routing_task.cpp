@@ -22,7 +22,8 @@ LaneWaypoint toMsg(const HdMap& map, const LanePoint& point) {
   return msg;
 }
 
-LanePoint onLane(const ProcessContext& context, const Pose& pose, const Pose2d& frame, const std::string& field) {
+std::vector<LanePoint> onLanes(const ProcessContext& context, const Pose& pose, const Pose2d& frame,
+                               const std::string& field) {
   const Pose2d at_map = toMapPose(pose, frame);
   const auto heading = pose.has_heading ? std::optional<double>(at_map.heading) : std::nullopt;
   return LaneWayTool(context.requireRouter().map(), context.params().lane_way)
@@ -40,16 +41,17 @@ RoutingTask beginRoutingTask(const ProcessContext& context, const std::string& f
   task.request.header.stamp = ros::Time::now();
   task.request.is_start_pose_set = is_start_pose_set;
   if (!is_start_pose_set) {
-    task.query.starts = LaneWayTool(map, context.params().lane_way).fromVehicle(context.vehiclePose().get());
+    const VehiclePose& vehicle = context.vehiclePose();
+    task.query.starts = LaneWayTool(map, context.params().lane_way).fromVehicle(vehicle.get(), vehicle.height());
     task.request.waypoint.push_back(toMsg(map, task.query.starts.front()));
   }
   for (std::size_t i = 0; i < way_points.size(); ++i) {
-    const LanePoint point = onLane(context, way_points[i], frame, text("way_point[", i, "]"));
-    task.request.waypoint.push_back(toMsg(map, point));
+    std::vector<LanePoint> points = onLanes(context, way_points[i], frame, text("way_point[", i, "]"));
+    task.request.waypoint.push_back(toMsg(map, points.front()));
     if (i == 0 && is_start_pose_set) {
-      task.query.starts = {point};
+      task.query.starts = std::move(points);
     } else {
-      task.query.via.push_back({point});
+      task.query.via.push_back(std::move(points));
       task.way_points.push_back(toMapPose(way_points[i], frame).position());
     }
   }
@@ -67,13 +69,22 @@ void addBlackList(const HdMap& map, const std::vector<LaneSegment>& lanes, const
 
 void setGoal(const ProcessContext& context, const std::string& frame_id, const Pose& pose, const std::string& field,
              RoutingTask* task) {
-  setGoals(context.requireRouter().map(), {onLane(context, pose, context.vehiclePose().ofFrame(frame_id), field)},
-           task);
+  setGoals(context.requireRouter().map(), onLanes(context, pose, context.vehiclePose().ofFrame(frame_id), field), task);
 }
 
 void setGoals(const HdMap& map, const std::vector<LanePoint>& candidates, RoutingTask* task) {
   task->query.goals = candidates;
   task->request.waypoint.push_back(toMsg(map, candidates.front()));
+}
+
+RoutingRequest requestOf(const HdMap& map, const RoutingTask& task, const Route& route) {
+  RoutingRequest request = task.request;
+  std::vector<LanePoint> taken = {task.query.starts[route.start]};
+  for (std::size_t i = 0; i < route.via.size(); ++i) taken.push_back(task.query.via[i][route.via[i]]);
+  taken.push_back(task.query.goals[route.goal]);
+  request.waypoint.clear();
+  for (const LanePoint& point : taken) request.waypoint.push_back(toMsg(map, point));
+  return request;
 }
 
 }  // namespace external_command

@@ -3,6 +3,7 @@
 
 #include <tf2/utils.h>
 
+#include <cmath>
 #include <utility>
 
 #include "external_command/core/error.h"
@@ -41,6 +42,15 @@ Pose2d VehiclePose::get() const {
   const Pose2d pose = toPose(transform.transform);
   if (!pose.isFinite()) throw NotReady(text("the transform ", map_frame_, " -> ", base_frame_, " is not finite"));
   return pose;
+}
+
+std::optional<double> VehiclePose::height() const {
+  try {
+    const double z = buffer_.lookupTransform(map_frame_, base_frame_, ros::Time(0)).transform.translation.z;
+    return z != 0.0 && std::isfinite(z) ? std::optional<double>(z) : std::nullopt;
+  } catch (const tf2::TransformException&) {
+    return std::nullopt;
+  }
 }
 
 Pose2d VehiclePose::ofFrame(const std::string& given) const {

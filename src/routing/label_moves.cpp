@@ -14,6 +14,7 @@ constexpr double kLeastChangePrice = 0.01;  // [m]: of routes that are equally l
 constexpr double kSamePlace = 0.001;        // [m]
 constexpr double kTiny = 1e-9;              // [m]
 constexpr int kMaxChangePieces = 64;        // over which one change may run
+constexpr int kMaxLanesBehind = 5;          // over which a place behind a start is looked for
 
 }  // namespace
 
@@ -26,18 +27,39 @@ void LabelSearch::expand(std::int32_t index) {
 
 void LabelSearch::arrive(std::int32_t index, const SearchLabel& label) {
   for (std::int32_t i = work_.slotOf(label.lane).first_target; i >= 0; i = work_.targets[i].next_on_lane) {
-    const SearchWorkspace::Target& target = work_.targets[i];
-    if (target.is_reached || target.s < label.s - kSamePlace || target.s > label.free_to) continue;
-    SearchLabel arrival = label;
-    arrival.s = std::max(label.s, target.s);
-    arrival.distance += arrival.s - label.s;
-    arrival.cost += arrival.s - label.s;
-    arrival.parent = index;
-    arrival.move = Move::kArrive;
-    arrival.is_done = false;
-    arrival.candidate = target.candidate;
-    enqueue(store(arrival));
+    const LanePoint place = work_.targets[i].place;
+    if (place.s >= label.s - kSamePlace && place.s <= label.free_to) arrive(index, label, i, place.s);
   }
+  if (label.move != Move::kStart) return;
+  for (std::size_t i = 0; i < work_.targets.size(); ++i) {
+    const LanePoint place = work_.targets[i].place;
+    if (blocked_.contains(place.lane, place.s)) continue;
+    if (isAhead(label, place, params_.stopping_error, 0)) arrive(index, label, static_cast<std::int32_t>(i), label.s);
+  }
+}
+
+void LabelSearch::arrive(std::int32_t index, const SearchLabel& label, std::int32_t target, double s) {
+  if (work_.targets[target].is_reached) return;
+  SearchLabel arrival = label;
+  arrival.s = std::max(label.s, s);
+  arrival.distance += arrival.s - label.s;
+  arrival.cost += arrival.s - label.s + work_.targets[target].place.price;
+  arrival.parent = index;
+  arrival.move = Move::kArrive;
+  arrival.is_done = false;
+  arrival.candidate = work_.targets[target].candidate;
+  enqueue(store(arrival));
+}
+
+/// Whether `label` lies at most `reach` [m] ahead of `place`, on its lane or those that follow.
+bool LabelSearch::isAhead(const SearchLabel& label, const LanePoint& place, double reach, int lanes) const {
+  if (label.lane == place.lane && label.s >= place.s) return label.s - place.s <= reach;
+  const double rest = graph_.length(place.lane) - place.s;
+  if (rest > reach || lanes == kMaxLanesBehind) return false;
+  const Span<LaneIndex> successors = graph_.successors(place.lane);
+  return std::any_of(successors.begin(), successors.end(), [&](LaneIndex next) {
+    return isAhead(label, {next, 0.0}, reach - rest, lanes + 1);
+  });
 }
 
 void LabelSearch::follow(std::int32_t index, const SearchLabel& label) {

@@ -38,7 +38,7 @@ void LabelSearch::beginLeg(const std::vector<LanePoint>& targets) {
   reached_lanes_ = 0;
   for (std::size_t i = 0; i < targets.size(); ++i) {
     SearchWorkspace::LaneSlot& slot = work_.slotOf(targets[i].lane);
-    work_.targets.push_back({targets[i].s, static_cast<std::int32_t>(i), slot.first_target, false});
+    work_.targets.push_back({targets[i], static_cast<std::int32_t>(i), slot.first_target, false});
     slot.first_target = static_cast<std::int32_t>(i);
   }
 }
@@ -48,6 +48,7 @@ void LabelSearch::addStart(const LanePoint& start, std::int32_t candidate) {
   SearchLabel label;
   label.lane = start.lane;
   label.s = label.anchor_s = start.s;
+  label.cost = start.price;
   label.candidate = candidate;
   add(label);
 }

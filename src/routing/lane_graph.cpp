@@ -11,7 +11,7 @@ LaneGraph::LaneGraph(const HdMap& map, const RouterParams& params) {
   routable_.reserve(count);
   for (const Lane& lane : map.lanes()) {
     lengths_.push_back(lane.length());
-    routable_.push_back(external_command::isRoutable(lane));
+    routable_.push_back(lane.isDrivable());
   }
   for (LaneIndex i = 0; i < count; ++i) {
     first_successor_.push_back(static_cast<std::uint32_t>(successors_.size()));

@@ -48,8 +48,6 @@ std::vector<Interval> crossableShares(const LaneBoundary& boundary, double lane_
 
 }  // namespace
 
-bool isRoutable(const Lane& lane) { return lane.isDrivable() && lane.direction != LaneDirection::kBackward; }
-
 std::optional<LanePair> pairOf(const HdMap& map, LaneIndex a, LaneIndex b, LaneChange side) {
   const Polyline &center_a = map.lane(a).center, &center_b = map.lane(b).center;
   LanePair pair{b, side, 0.0, center_a.length(), 0.0, center_b.length()};

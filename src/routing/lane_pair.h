@@ -37,8 +37,4 @@ std::optional<LanePair> pairOf(const HdMap& map, LaneIndex a, LaneIndex b, LaneC
 /// @return ranges of `s` on `a`, rising, none shorter than 1 mm.
 std::vector<Interval> crossableParts(const HdMap& map, LaneIndex a, const LanePair& pair);
 
-/// Whether routes use the lane: drivable, and along its centre line. Lanes that are driven against their centre line
-/// (LaneDirection::kBackward) are not routed.
-bool isRoutable(const Lane& lane);
-
 }  // namespace external_command

@@ -3,14 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
 #include "external_command/core/text.h"
-#include "lane_pair.h"
 
 namespace external_command {
 
 namespace {
 
+constexpr double kEnd = 0.001;       // [m]
 constexpr double kBesideLane = 0.1;  // [m] by which `s` may miss its lane: map files round their lengths
 
 void requireWithin(const char* key, double value, double low, double high) {
@@ -18,21 +20,32 @@ void requireWithin(const char* key, double value, double low, double high) {
   throw InvalidParameter(text(key, " is ", value, "; it must lie in [", low, ", ", high, "]"));
 }
 
-LanePoint pointOf(const LaneMatch& match) { return {match.lane, match.frenet.s}; }
-
-std::vector<LaneMatch> routable(const HdMap& map, std::vector<LaneMatch> matches) {
-  matches.erase(std::remove_if(matches.begin(), matches.end(),
-                               [&](const LaneMatch& match) { return !isRoutable(map.lane(match.lane)); }),
-                matches.end());
-  return matches;
+/// Leaves out lanes at whose end the point lies where it lies on a lane that follows, too.
+void dropEnds(const HdMap& map, std::vector<LaneMatch>* matches) {
+  const auto isOther = [&](const LaneMatch& match) {
+    const Lane& lane = map.lane(match.lane);
+    return match.frenet.s > lane.length() - kEnd &&
+           std::any_of(matches->begin(), matches->end(), [&](const LaneMatch& other) {
+             return std::count(lane.successors.begin(), lane.successors.end(), other.lane) > 0;
+           });
+  };
+  std::vector<LaneMatch> kept;
+  std::copy_if(matches->begin(), matches->end(), std::back_inserter(kept),
+               [&](const LaneMatch& match) { return !isOther(match); });
+  if (!kept.empty()) *matches = std::move(kept);  // a ring of lanes may be all ends
 }
 
-/// The nearest lane that routes use.
-std::optional<LaneMatch> nearestRoutable(const HdMap& map, const Point2d& point, const LaneQuery& query) {
-  const auto nearest = map.nearestLane(point, query);
-  if (!nearest || isRoutable(map.lane(nearest->lane))) return nearest;
-  const std::vector<LaneMatch> matches = routable(map, map.lanesWithin(point, query));
-  return matches.empty() ? std::nullopt : std::optional<LaneMatch>(matches.front());
+/// Leaves the lanes of the deck that is nearest by height; what the map says no height of stays.
+void keepDeck(const HdMap& map, double height, double error, std::vector<LaneMatch>* matches) {
+  const auto difference = [&](const LaneMatch& match) {
+    const auto lane_height = map.lane(match.lane).heightAt(match.frenet.s);
+    return lane_height ? std::abs(*lane_height - height) : 0.0;
+  };
+  double least = std::numeric_limits<double>::infinity();
+  for (const LaneMatch& match : *matches) least = std::min(least, difference(match));
+  matches->erase(std::remove_if(matches->begin(), matches->end(),
+                                [&](const LaneMatch& match) { return difference(match) > least + error; }),
+                 matches->end());
 }
 
 }  // namespace
@@ -40,6 +53,11 @@ std::optional<LaneMatch> nearestRoutable(const HdMap& map, const Point2d& point,
 void LaneWayParams::validate() const {
   requireWithin("snap_distance", snap_distance, 0.01, 1000.0);
   requireWithin("snap_heading", snap_heading, 0.01, M_PI);
+  requireWithin("max_goal_distance", max_goal_distance, 0.01, 1e6);
+  requireWithin("lane_keeping_error", lane_keeping_error, 0.0, 100.0);
+  requireWithin("height_error", height_error, 0.0, 1000.0);
+  requireWithin("off_lane_price", off_lane_price, 0.0, 1e6);
+  requireWithin("off_heading_price", off_heading_price, 0.0, 1e6);
   requireWithin("off_lane_distance", off_lane_distance, 0.0, 1000.0);
   requireWithin("off_lane_heading", off_lane_heading, 0.0, M_PI);
   requireWithin("park_and_go_radius", park_and_go_radius, 0.01, 1000.0);
@@ -48,59 +66,80 @@ void LaneWayParams::validate() const {
 
 LaneWayTool::LaneWayTool(const HdMap& map, const LaneWayParams& params) : map_(map), params_(params) {}
 
-LanePoint LaneWayTool::fromPose(const Point2d& point, const std::optional<double>& heading,
-                                const std::string& name) const {
+/// With a height, only lanes of that deck: those of another that are nearer in the plane do not count.
+std::vector<LanePoint> LaneWayTool::candidates(const Point2d& point, LaneQuery query,
+                                               const std::optional<double>& height) const {
+  if (!height) {
+    const auto nearest = map_.nearestLane(point, query);
+    if (!nearest) return {};
+    query.max_distance = std::min(query.max_distance, nearest->frenet.distance + params_.lane_keeping_error);
+  }
+  std::vector<LaneMatch> matches = map_.lanesWithin(point, query);
+  if (height) keepDeck(map_, *height, params_.height_error, &matches);
+  dropEnds(map_, &matches);
+  std::vector<LanePoint> points;
+  for (const LaneMatch& match : matches) {
+    if (match.frenet.distance > matches.front().frenet.distance + params_.lane_keeping_error) break;
+    const double turn = query.heading ? std::abs(angleBetween(*query.heading, match.heading)) : 0.0;
+    const double price = match.frenet.distance * params_.off_lane_price + turn * params_.off_heading_price;
+    points.push_back({match.lane, match.frenet.s, price});
+  }
+  return points;
+}
+
+std::vector<LanePoint> LaneWayTool::fromPose(const Point2d& point, const std::optional<double>& heading,
+                                             const std::string& name) const {
   if (!point.allFinite() || (heading && !std::isfinite(*heading))) throw InvalidRequest(text(name, " is not finite"));
   LaneQuery query;
-  if (heading) {
-    query.max_distance = params_.snap_distance;
-    query.heading = heading;
-    query.max_heading_difference = params_.snap_heading;
-  }
-  const auto match = nearestRoutable(map_, point, query);
-  if (match) return pointOf(*match);
+  query.max_distance = heading ? params_.snap_distance : params_.max_goal_distance;
+  query.heading = heading;
+  query.max_heading_difference = params_.snap_heading;
+  std::vector<LanePoint> points = candidates(point, query, std::nullopt);
+  if (!points.empty()) return points;
 
   const std::string place = heading ? at(Pose2d{point.x(), point.y(), *heading}) : at(point);
-  const auto nearest = nearestRoutable(map_, point, {});
+  const auto nearest = map_.nearestLane(point, {});
   if (!nearest) throw OffMap(text(name, " ", place, ": the map has no lane to drive on"));
   std::string difference;
+  std::string limit = text("limit is ", metres(params_.max_goal_distance), " (~max_goal_distance)");
   if (heading) {
     difference = text(", whose heading differs by ", std::abs(angleBetween(*heading, nearest->heading)), " rad");
+    limit = text("limits are ", metres(params_.snap_distance), " (~snap_distance) and ", params_.snap_heading,
+                 " rad (~snap_heading)");
   }
   throw OffMap(text(name, " ", place, " is ", metres(nearest->frenet.distance), " from the nearest lane ",
-                    map_.lane(nearest->lane).id, difference, "; the limits are ", metres(params_.snap_distance),
-                    " (~snap_distance) and ", params_.snap_heading, " rad (~snap_heading)"));
+                    map_.lane(nearest->lane).id, difference, "; the ", limit));
 }
 
 LanePoint LaneWayTool::fromLane(const std::string& id, double s, const std::string& name) const {
   const auto index = map_.findLane(id);
   if (!index) throw InvalidRequest(text(name, " names lane '", id, "', which the map does not have"));
   const Lane& lane = map_.lane(*index);
-  if (!isRoutable(lane)) throw InvalidRequest(text(name, " names lane ", id, ", which is not for driving"));
+  if (!lane.isDrivable()) throw InvalidRequest(text(name, " names lane ", id, ", which is not for driving"));
   if (!(s >= -kBesideLane && s <= lane.length() + kBesideLane)) {  // catches NaN
     throw InvalidRequest(text(name, " has s ", s, " m; lane ", id, " goes from 0 to ", metres(lane.length())));
   }
   return {*index, std::clamp(s, 0.0, lane.length())};
 }
 
-bool LaneWayTool::isOffLane(const Pose2d& vehicle) const {
+LaneQuery LaneWayTool::ownLanes(const Pose2d& vehicle) const {
   LaneQuery query;
   query.max_distance = params_.off_lane_distance;
   query.heading = vehicle.heading;
   query.max_heading_difference = params_.off_lane_heading;
-  return !nearestRoutable(map_, vehicle.position(), query);
+  return query;
 }
 
-std::vector<LanePoint> LaneWayTool::fromVehicle(const Pose2d& vehicle) const {
+bool LaneWayTool::isOffLane(const Pose2d& vehicle) const {
+  return !map_.nearestLane(vehicle.position(), ownLanes(vehicle));
+}
+
+std::vector<LanePoint> LaneWayTool::fromVehicle(const Pose2d& vehicle, const std::optional<double>& height) const {
   if (!vehicle.isFinite()) throw InvalidRequest("the vehicle's pose is not finite");
-  LaneQuery query;
-  query.max_distance = params_.off_lane_distance;
-  query.heading = vehicle.heading;
-  query.max_heading_difference = params_.off_lane_heading;
-  if (const auto own = nearestRoutable(map_, vehicle.position(), query)) return {pointOf(*own)};
-  std::vector<LanePoint> candidates = within(vehicle.position(), params_.park_and_go_radius);
-  if (!candidates.empty()) return candidates;
-  const auto nearest = nearestRoutable(map_, vehicle.position(), {});
+  std::vector<LanePoint> points = candidates(vehicle.position(), ownLanes(vehicle), height);
+  if (points.empty()) points = within(vehicle.position(), params_.park_and_go_radius);
+  if (!points.empty()) return points;
+  const auto nearest = map_.nearestLane(vehicle.position(), {});
   throw OffMap(text("the vehicle at ", at(vehicle), " is off the lanes and ",
                     nearest ? text(metres(nearest->frenet.distance), " from the nearest, ", map_.lane(nearest->lane).id)
                             : "the map has none to drive on",
@@ -118,7 +157,7 @@ std::vector<LanePoint> LaneWayTool::fromParkingSpace(const std::string& id, bool
   std::vector<LanePoint> candidates;
   for (const LaneOverlap& overlap : space->lanes) {
     const Lane& lane = map_.lane(overlap.lane);
-    if (isRoutable(lane)) candidates.push_back({overlap.lane, lane.center.project(middle).s});
+    if (lane.isDrivable()) candidates.push_back({overlap.lane, lane.center.project(middle).s});
   }
   if (used_geometry != nullptr) *used_geometry = candidates.empty();
   if (candidates.empty()) candidates = within(middle, params_.parking_lane_radius);
@@ -131,7 +170,7 @@ std::vector<LanePoint> LaneWayTool::within(const Point2d& point, double radius) 
   LaneQuery query;
   query.max_distance = radius;
   std::vector<LanePoint> points;
-  for (const LaneMatch& match : routable(map_, map_.lanesWithin(point, query))) points.push_back(pointOf(match));
+  for (const LaneMatch& match : map_.lanesWithin(point, query)) points.push_back({match.lane, match.frenet.s});
   return points;
 }
 

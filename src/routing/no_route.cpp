@@ -72,20 +72,23 @@ std::string whyNoRoute(const HdMap& map, const LaneGraph& graph, const RouterPar
     if (all_blocked) return text(what, ": the black list covers the ", pointName(query, end));
   }
   const SearchResult squeezed = searchRoute(graph, params, ChangeRule::kWithoutRoom, query, blocked, cancel);
-  if (!squeezed.labels.empty()) {
-    return text(what, ": there is no room to change lanes, ",
-                tightChange(map, buildRoute(graph, blocked, squeezed.labels)), " for one; a change needs ",
-                metres(params.min_lane_change_length),
-                " (~min_lane_change_length), or at least two arcs of the turning radius of ",
-                metres(params.min_turning_radius));
-  }
+  const std::string change =
+      squeezed.labels.empty() ? "" : tightChange(map, buildRoute(graph, blocked, squeezed.labels));
   if (!query.black_list.empty()) {
     const SearchResult unblocked = searchRoute(graph, params, ChangeRule::kWithRoom, query, free, cancel);
     if (!unblocked.labels.empty()) {
-      return text(what, ": the black list cuts it at lane ",
-                  cutLanes(map, query.black_list, buildRoute(graph, free, unblocked.labels)),
-                  "; without the black list there is a route");
+      const std::string cut = cutLanes(map, query.black_list, buildRoute(graph, free, unblocked.labels));
+      return text(
+          what, ": the black list ",
+          change.empty() ? text("cuts it at lane ", cut) : text("leaves no room to change lanes, ", change, " for one"),
+          "; without the black list there is a route");
     }
+  }
+  if (!change.empty()) {
+    return text(what, ": there is no room to change lanes, ", change, " for one; a change needs ",
+                metres(params.min_lane_change_length),
+                " (~min_lane_change_length), or at least two arcs of the turning radius of ",
+                metres(params.min_turning_radius));
   }
   return text(what, ": ", failed.reached_lanes, " lanes of ", map.lanes().size(),
               " were reached, none of which leads there",

@@ -261,7 +261,11 @@ Route buildRoute(const LaneGraph& graph, const BlockedLanes& blocked, const std:
   route.distance = labels.back().distance;
   route.cost = labels.back().cost;
   route.start = static_cast<std::size_t>(labels.front().candidate);
-  route.goal = static_cast<std::size_t>(labels.back().candidate);
+  for (const SearchLabel& label : labels) {
+    if (label.move == SearchLabel::Move::kArrive) route.via.push_back(static_cast<std::size_t>(label.candidate));
+  }
+  route.goal = route.via.back();
+  route.via.pop_back();
   return route;
 }
 

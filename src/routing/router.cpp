@@ -29,6 +29,7 @@ void requirePoint(const LaneGraph& graph, const HdMap& map, const std::string& n
     throw InvalidRequest(
         text(name, " has s ", point->s, " on lane ", lane.id, "; it must lie in [0, ", metres(lane.length()), "]"));
   }
+  if (!(point->price >= 0.0)) throw InvalidRequest(text(name, " has the price ", point->price));
   point->s = std::clamp(point->s, 0.0, lane.length());
 }
 
@@ -76,6 +77,9 @@ void RouterParams::validate() const {
   if (!(min_lane_change_length >= 0.1 && min_lane_change_length <= 1000.0)) {
     throw InvalidParameter(
         text("min_lane_change_length is ", min_lane_change_length, "; it must lie in [0.1, 1000] m"));
+  }
+  if (!(stopping_error >= 0.0 && stopping_error <= 10.0)) {
+    throw InvalidParameter(text("stopping_error is ", stopping_error, "; it must lie in [0, 10] m"));
   }
   if (!(min_turning_radius >= 0.1 && min_turning_radius <= 100.0)) {
     throw InvalidParameter(text("min_turning_radius is ", min_turning_radius, "; it must lie in [0.1, 100] m"));

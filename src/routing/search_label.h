@@ -27,7 +27,7 @@ struct SearchLabel {
   double s = 0.0;         ///< [m]
   double distance = 0.0;  ///< driven so far; from `anchor_s` on it counts along this lane [m]
   double anchor_s = 0.0;  ///< where this stretch of road was entered, on this lane even if it was on one beside it [m]
-  double cost = 0.0;      ///< `distance` and the price of the lane changes [m]
+  double cost = 0.0;      ///< `distance` and the prices of lane changes and candidates [m]
   double free_to = 0.0;   ///< how far one can drive on along the lane [m]
   std::int32_t parent = -1;
   std::int32_t next_on_lane = -1;

@@ -12,11 +12,14 @@ struct SearchWorkspace {
   struct QueueEntry {
     double cost;
     std::int32_t label;
-    bool operator<(const QueueEntry& other) const { return cost > other.cost; }  // the cheapest on top
+    /// The cheapest on top; among equals the one found first.
+    bool operator<(const QueueEntry& other) const {
+      return cost != other.cost ? cost > other.cost : label > other.label;
+    }
   };
 
   struct Target {
-    double s;
+    LanePoint place;
     std::int32_t candidate;
     std::int32_t next_on_lane;
     bool is_reached;

@@ -126,9 +126,26 @@ class LaneFollowTest(unittest.TestCase):
         far = Pose(x=5000.0, y=5000.0, heading=0.0, has_heading=True)
         self.assert_refused(lane_follow(end_pose=far), CommandStatus.OFF_MAP, "end_pose", "5000")
 
-    def test_takes_the_nearest_lane_where_no_heading_is_given(self):
-        answer = lane_follow(end_pose=NOWHERE, dry_run=True)
-        self.assertEqual(answer.status.status, CommandStatus.FINISHED, support.describe(answer.status))
+    def test_refuses_a_goal_or_way_point_far_from_every_lane(self):
+        self.assert_refused(lane_follow(), CommandStatus.OFF_MAP, "end_pose (0.00, 0.00)", "limit is 10.00 m",
+                            "max_goal_distance")
+        self.assert_refused(lane_follow(end_pose=NOWHERE), CommandStatus.OFF_MAP, "end_pose", "nearest lane")
+        self.assert_refused(lane_follow(way_point=[NOWHERE], end_pose=EAST_END), CommandStatus.OFF_MAP, "way_point[0]")
+        beside = lane_follow(end_pose=Pose(x=300.0, y=188.0), dry_run=True)
+        self.assertEqual(beside.status.status, CommandStatus.FINISHED, support.describe(beside.status))
+
+    def test_takes_the_lane_that_suits_the_route_where_several_are_near(self):
+        # 0.1 m to the right of the lane straight on, where one that turns right is as near.
+        start = Pose(x=203.0, y=194.65, heading=0.0, has_heading=True)
+        answer = lane_follow(is_start_pose_set=True, way_point=[start], end_pose=Pose(x=280.0, y=194.75), dry_run=True)
+        self.assertAlmostEqual(answer.report.route_length, 77.0, delta=0.5)
+
+    def test_takes_a_goal_just_behind_its_start_as_reached(self):
+        start = Pose(x=150.0, y=194.75, heading=0.0, has_heading=True)
+        for behind in [0.001, 0.5]:
+            answer = lane_follow(is_start_pose_set=True, way_point=[start], end_pose=Pose(x=150.0 - behind, y=194.75),
+                                 dry_run=True)
+            self.assertEqual(answer.report.route_length, 0.0)
 
     def test_black_lists_bind(self):
         way = [from_west(100.0)]

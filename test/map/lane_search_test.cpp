@@ -13,16 +13,32 @@
 namespace external_command {
 namespace {
 
+/// The nearest place of each stretch whose segments all satisfy `query`.
+std::vector<LaneMatch> passesOf(const Lane& lane, LaneIndex index, const Point2d& point, const LaneQuery& query) {
+  std::vector<LaneMatch> passes;
+  const std::vector<Point2d>& line = lane.center.points();
+  bool goes_on = false;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const double heading = query.heading ? headingOf(line[i + 1] - line[i]) : 0.0;
+    const double distance = (nearestOnSegment(point, line[i], line[i + 1]) - point).norm();
+    const bool turns = query.heading && std::abs(angleBetween(*query.heading, heading)) > query.max_heading_difference;
+    if (turns || distance > query.max_distance) {
+      goes_on = false;
+      continue;
+    }
+    if (!goes_on) passes.push_back({index, {0.0, 0.0, distance}, heading});
+    if (distance < passes.back().frenet.distance) passes.back() = {index, {0.0, 0.0, distance}, heading};
+    goes_on = true;
+  }
+  return passes;
+}
+
 std::vector<LaneMatch> byBruteForce(const HdMap& map, const Point2d& point, const LaneQuery& query) {
   std::vector<LaneMatch> matches;
   for (LaneIndex i = 0; i < map.lanes().size(); ++i) {
-    const Lane& lane = map.lane(i);
-    const FrenetPoint frenet = lane.center.project(point);
-    const double heading = lane.center.headingAt(frenet.s);
-    if (query.drivable_only && !lane.isDrivable()) continue;
-    if (frenet.distance > query.max_distance) continue;
-    if (query.heading && std::abs(angleBetween(*query.heading, heading)) > query.max_heading_difference) continue;
-    matches.push_back({i, frenet, heading});
+    if (query.drivable_only && !map.lane(i).isDrivable()) continue;
+    const auto passes = passesOf(map.lane(i), i, point, query);
+    matches.insert(matches.end(), passes.begin(), passes.end());
   }
   std::stable_sort(matches.begin(), matches.end(),
                    [](const auto& a, const auto& b) { return a.frenet.distance < b.frenet.distance; });
@@ -84,16 +100,34 @@ TEST(LaneSearch, AgreesWithBruteForceOnRealMaps) {
   }
 }
 
-/// The point lies nearest to the lane's bend; the lane's heading counts there and nowhere else.
-TEST(LaneSearch, JudgesTheHeadingAtTheFootPoint) {
+/// out and back on one lane, 6 m apart
+TEST(LaneSearch, TakesTheStretchOfALaneThatHasTheHeading) {
   MapBuilder builder;
-  builder.lane("bent", {{0, 0}, {100, 0}, {100, 100}}).lane("far", {0, -500}, {100, -500});
+  builder.lane("hairpin", {{0, 0}, {100, 0}, {100, 6}, {0, 6}});
   const auto map = builder.build();
   LaneQuery east;
   east.heading = 0.0;
   east.max_heading_difference = 0.5;
-  EXPECT_EQ(map->nearestLane({50, 10}, east)->lane, laneIndex(*map, "bent"));
-  EXPECT_EQ(map->nearestLane({99, 50}, east)->lane, laneIndex(*map, "far"));
+  east.max_distance = 10.0;
+  EXPECT_NEAR(map->nearestLane({50, 4}, east)->frenet.s, 50.0, 1e-9) << "the other leg is nearer";
+  ASSERT_EQ(map->lanesWithin({50, 4}, east).size(), 1u);
+  east.heading = M_PI;
+  EXPECT_NEAR(map->nearestLane({50, 2}, east)->frenet.s, 156.0, 1e-9);
+  EXPECT_FALSE(map->nearestLane({50, -5}, east));
+}
+
+TEST(LaneSearch, FindsALaneOnceForEachTimeItPasses) {
+  MapBuilder builder;
+  builder.lane("hairpin", {{0, 0}, {100, 0}, {100, 6}, {0, 6}});
+  const auto map = builder.build();
+  LaneQuery query;
+  query.max_distance = 10.0;
+  const auto passes = map->lanesWithin({50, 2}, query);
+  ASSERT_EQ(passes.size(), 2u);
+  EXPECT_NEAR(passes[0].frenet.s, 50.0, 1e-9);
+  EXPECT_NEAR(passes[0].frenet.l, 2.0, 1e-9);
+  EXPECT_NEAR(passes[1].frenet.s, 156.0, 1e-9);
+  EXPECT_NEAR(passes[1].frenet.l, 4.0, 1e-9);
 }
 
 TEST(LaneSearch, TakesLimitsInclusively) {

@@ -161,7 +161,9 @@ TEST_F(TwoLanes, PassesABlackListedPartOnTheLaneBesideIt) {
 }
 
 TEST_F(TwoLanes, CannotPassABlackListedPartWithoutRoomBeforeIt) {
-  EXPECT_THAT_REFUSED(drive({"a1", 35}, {}, {"a2", 50}, {{"a1", 40, 60}}), NoRoute, "no room to change lanes");
+  EXPECT_THAT_REFUSED(drive({"a1", 35}, {}, {"a2", 50}, {{"a1", 40, 60}}), NoRoute,
+                      "the black list leaves no room to change lanes, from lane a1 to lane b1 for one; without the "
+                      "black list there is a route");
 }
 
 TEST_F(TwoLanes, CannotPassABlackListThatCoversBothLanes) {

@@ -28,21 +28,45 @@ class TwoWayRoad : public testing::Test {
 
   std::string id(const LanePoint& point) const { return map->lane(point.lane).id; }
 
+  std::string ids(const std::vector<LanePoint>& points) const {
+    std::string text;
+    for (const LanePoint& point : points) text += (text.empty() ? "" : " ") + id(point);
+    return text;
+  }
+
   MapBuilder builder;
   LaneWayParams params;
   std::shared_ptr<const HdMap> map;
 };
 
 TEST_F(TwoWayRoad, SnapsAPoseToTheNearestLaneInItsDirection) {
-  const LanePoint east = tool().fromPose({30, 1.0}, 0.1, "end_pose");
-  EXPECT_EQ(id(east), "north") << "the nearer one leads the other way";
-  EXPECT_NEAR(east.s, 30.0, 1e-9);
-  EXPECT_EQ(id(tool().fromPose({30, 1.0}, M_PI, "end_pose")), "south");
+  const auto east = tool().fromPose({30, 1.0}, 0.1, "end_pose");
+  ASSERT_EQ(ids(east), "north") << "the nearer one leads the other way";
+  EXPECT_NEAR(east[0].s, 30.0, 1e-9);
+  EXPECT_EQ(ids(tool().fromPose({30, 1.0}, M_PI, "end_pose")), "south");
 }
 
 TEST_F(TwoWayRoad, SnapsAPoseWithoutHeadingToTheNearestLaneAtAll) {
-  EXPECT_EQ(id(tool().fromPose({30, 1.0}, std::nullopt, "end_pose")), "south");
-  EXPECT_EQ(id(tool().fromPose({30, 500.0}, std::nullopt, "end_pose")), "north") << "bicycles are not for us";
+  EXPECT_EQ(ids(tool().fromPose({30, 1.0}, std::nullopt, "end_pose")), "south");
+  EXPECT_EQ(ids(tool().fromPose({30, kWidth + 8.0}, std::nullopt, "end_pose")), "north") << "bicycles are not for us";
+}
+
+TEST_F(TwoWayRoad, RefusesAPoseWithoutHeadingFarFromEveryLane) {
+  EXPECT_NO_THROW(tool().fromPose({30, -9.9}, std::nullopt, "end_pose"));
+  EXPECT_THAT_REFUSED(tool().fromPose({30, -10.1}, std::nullopt, "end_pose"), OffMap,
+                      "end_pose (30.00, -10.10) is 10.10 m from the nearest lane south; the limit is 10.00 m "
+                      "(~max_goal_distance)");
+}
+
+TEST_F(TwoWayRoad, TakesEveryLaneThatIsHardlyFurtherOffAtThePriceOfBeingOff) {
+  const double middle = kWidth / 2.0;
+  EXPECT_EQ(ids(tool().fromPose({30, middle + 0.4}, std::nullopt, "end_pose")), "north south");
+  EXPECT_EQ(ids(tool().fromPose({30, middle - 0.4}, std::nullopt, "end_pose")), "south north");
+  EXPECT_EQ(ids(tool().fromPose({30, middle + 0.6}, std::nullopt, "end_pose")), "north");
+  const auto points = tool().fromPose({30, middle + 0.4}, std::nullopt, "end_pose");
+  EXPECT_NEAR(points[0].price, 1.35 * params.off_lane_price, 1e-9);
+  EXPECT_NEAR(points[1].price, 2.15 * params.off_lane_price, 1e-9);
+  EXPECT_NEAR(tool().fromPose({30, 0}, M_PI - 0.5, "end_pose")[0].price, 0.5 * params.off_heading_price, 1e-9);
 }
 
 TEST_F(TwoWayRoad, RefusesAPoseTooFarFromEveryLane) {
@@ -69,9 +93,9 @@ TEST_F(TwoWayRoad, SaysThatNothingIsForDriving) {
   EXPECT_THAT_REFUSED(tool().fromVehicle({30, 1, 0}), OffMap, "no");
 }
 
-TEST_F(TwoWayRoad, DoesNotSnapToLanesThatAreDrivenBackwards) {
+TEST_F(TwoWayRoad, TakesALaneWhateverItsDirectionSays) {
   builder["south"].direction = LaneDirection::kBackward;
-  EXPECT_EQ(id(tool().fromPose({30, 0.1}, std::nullopt, "end_pose")), "north");
+  EXPECT_EQ(ids(tool().fromPose({30, 0.1}, std::nullopt, "end_pose")), "south");
 }
 
 TEST_F(TwoWayRoad, TakesALaneByItsId) {
@@ -89,9 +113,7 @@ TEST_F(TwoWayRoad, RefusesALaneThatIsNotThereOrNotForDriving) {
 }
 
 TEST_F(TwoWayRoad, StartsAVehicleOnItsOwnLane) {
-  const auto starts = tool().fromVehicle({30, 1.9, 1.0});
-  ASSERT_EQ(starts.size(), 1u);
-  EXPECT_EQ(id(starts[0]), "north");
+  EXPECT_EQ(ids(tool().fromVehicle({30, 1.9, 1.0})), "north");
   EXPECT_FALSE(tool().isOffLane({30, 1.9, 1.0}));
 }
 
@@ -106,6 +128,26 @@ TEST_F(TwoWayRoad, StartsAVehicleOffTheLanesOnAnyLaneAround) {
 TEST_F(TwoWayRoad, RefusesAVehicleFarFromTheLanes) {
   EXPECT_EQ(tool().fromVehicle({30, -19, 0}).size(), 1u);
   EXPECT_THAT_REFUSED(tool().fromVehicle({30, -21, 0}), OffMap, "the limit is 20.00 m (~park_and_go_radius)");
+}
+
+///   a second deck 6 m above: its lanes lie 0.2 m to the left of those below
+TEST_F(TwoWayRoad, StartsAVehicleOnTheDeckOfItsHeight) {
+  builder.lane("upper", {0, kWidth + 0.2}, {100, kWidth + 0.2});
+  const auto setHeight = [this](const char* lane, float z) {
+    builder[lane].heights.assign(builder[lane].center.size(), z);
+  };
+  for (const char* lane : {"north", "south", "path"}) setHeight(lane, 0.0F);
+  setHeight("upper", 6.0F);
+  const Pose2d vehicle{30, kWidth + 0.1, 0.0};
+  EXPECT_EQ(ids(tool().fromVehicle(vehicle, 6.4)), "upper");
+  EXPECT_EQ(ids(tool().fromVehicle(vehicle, 0.3)), "north");
+  EXPECT_EQ(tool().fromVehicle(vehicle).size(), 2u) << "no height is known";
+  EXPECT_EQ(ids(tool().fromVehicle({30, kWidth - 0.8, 0.0}, 6.4)), "upper") << "the other deck is nearer by 20 cm";
+  for (const char* lane : {"north", "south", "path"}) setHeight(lane, 30.0F);
+  setHeight("upper", 36.0F);
+  EXPECT_EQ(ids(tool().fromVehicle(vehicle, 6.0)), "north") << "the localization counts from elsewhere";
+  for (const char* lane : {"north", "south", "path", "upper"}) setHeight(lane, 0.0F);
+  EXPECT_EQ(tool().fromVehicle(vehicle, 6.4).size(), 2u) << "the map has no heights";
 }
 
 TEST_F(TwoWayRoad, ParksFromTheLanesThatOverlapTheSpace) {

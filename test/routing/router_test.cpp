@@ -42,6 +42,32 @@ TEST_F(Ring, StaysWhereTheGoalIsTheStart) {
   EXPECT_EQ(route.distance, 0.0);
 }
 
+TEST_F(Ring, TakesAGoalUpToTheStoppingErrorBehindTheStartAsReached) {
+  for (const double behind : {0.001, 0.3, 0.5}) {
+    const Route route = drive({"a", 60}, {"a", 60 - behind});
+    EXPECT_EQ(ids(route), "a");
+    EXPECT_EQ(route.distance, 0.0) << behind << " m behind";
+  }
+  EXPECT_EQ(ids(drive({"a", 60}, {"a", 59.4})), "a b c a");
+  params.stopping_error = 0.0;
+  EXPECT_EQ(ids(drive({"a", 60}, {"a", 59.9})), "a b c a");
+}
+
+TEST_F(Ring, TakesAGoalJustBehindTheStartOnTheLaneBeforeAsReached) {
+  EXPECT_EQ(search({{point("b", 0.2)}, {}, {point("a", 99.8)}, {}}).distance, 0.0);
+  EXPECT_NEAR(drive({"b", 0.3}, {"a", 99.7}).distance, 99.7 + 100.0 * std::sqrt(2.0) + 99.7, 1e-9);
+}
+
+TEST_F(Ring, TakesAWayPointJustBehindTheOneBeforeAsReached) {
+  const Route route = drive({"a", 10}, {{{"a", 40}}, {{"a", 39.999}}}, {"a", 70});
+  EXPECT_EQ(ids(route), "a");
+  EXPECT_NEAR(route.distance, 60.0, 1e-9);
+}
+
+TEST_F(Ring, DoesNotTakeAGoalBehindTheStartAsReachedWhereTheBlackListCoversIt) {
+  EXPECT_THAT_REFUSED(drive({"a", 60}, {}, {"a", 59.8}, {{"a", 59.7, 59.9}}), NoRoute, "covers the goal");
+}
+
 TEST_F(Ring, DrivesALoopToAGoalBehindTheStart) {
   const Route route = drive({"a", 60}, {"a", 40});
   EXPECT_EQ(ids(route), "a b c a");
@@ -82,6 +108,23 @@ TEST_F(Ring, TakesTheStartAndTheGoalWithTheShortestRoute) {
   EXPECT_NEAR(route.distance, 50.0 + 70.0, 1e-9);
 }
 
+TEST_F(Ring, WeighsThePriceOfEachCandidate) {
+  const std::vector<LanePoint> goals = {point("c", 10), point("d", 20)};
+  const auto search_with = [&](double price) {
+    RouteQuery query{{point("a", 10), point("b", 50)}, {{point("b", 60)}}, goals, {}};
+    query.starts[1].price = price;
+    query.goals[0].price = 15.0;
+    return search(query);
+  };
+  const Route near = search_with(20.0), far = search_with(200.0);
+  EXPECT_EQ(near.start, 1u);
+  EXPECT_EQ(far.start, 0u);
+  EXPECT_EQ(near.goal, 1u) << "10 m further, but without a price";
+  EXPECT_EQ(near.via, std::vector<std::size_t>{0});
+  EXPECT_NEAR(near.distance, 10.0 + 40.0 + 20.0, 1e-9);
+  EXPECT_NEAR(near.cost, near.distance + 20.0, 1e-9);
+}
+
 TEST_F(Ring, TakesTheWayPointThatIsBestForTheWholeRouteNotForItsLeg) {
   // The nearer candidate lies on the dead end.
   EXPECT_EQ(ids(drive({"b", 10}, {{{"d", 1}, {"c", 10}}}, {"a", 20})), "b c a");
@@ -109,11 +152,11 @@ TEST_F(Ring, DrivesOnlyWhatIsForDriving) {
   EXPECT_THAT_REFUSED(drive({"c", 1}, {"a", 1}), InvalidRequest, "lane c, which is not for driving");
 }
 
-TEST_F(Ring, DrivesLanesOfBothDirectionsForwardAndBackwardOnesNotAtAll) {
-  builder["c"].direction = LaneDirection::kBidirection;
-  EXPECT_EQ(ids(drive({"b", 1}, {"a", 1})), "b c a");
-  builder["c"].direction = LaneDirection::kBackward;
-  EXPECT_THAT_REFUSED(drive({"b", 1}, {"a", 1}), NoRoute, "no route");
+TEST_F(Ring, DrivesLanesAlongTheirCentreLinesWhateverTheirDirectionSays) {
+  for (const LaneDirection direction : {LaneDirection::kBidirection, LaneDirection::kBackward}) {
+    builder["c"].direction = direction;
+    EXPECT_EQ(ids(drive({"b", 1}, {"a", 1})), "b c a");
+  }
 }
 
 TEST_F(Ring, GoesAroundNothingWhenTheBlackListCutsTheOnlyWay) {

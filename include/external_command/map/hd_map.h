@@ -16,6 +16,12 @@ namespace external_command {
 /// Position of a lane in HdMap::lanes().
 using LaneIndex = std::uint32_t;
 
+/// The height of a lane's centre line at `s`; in between it goes on evenly.
+struct HeightSample {
+  double s = 0.0;  ///< [m]
+  double z = 0.0;  ///< [m]
+};
+
 /// A lane with every reference resolved.
 struct Lane {
   std::string id;
@@ -31,6 +37,7 @@ struct Lane {
   std::vector<LaneIndex> left_reverse, right_reverse;  ///< neighbours in the opposite direction
   std::string road_id;                                 ///< empty where no road names the lane
   std::string junction_id;                             ///< empty outside junctions
+  std::vector<HeightSample> heights;                   ///< to about 0.1 m; empty where the map gives none
 
   double length() const { return center.length(); }
 
@@ -39,6 +46,9 @@ struct Lane {
 
   /// Full width [m] at `s`, from the samples, else from the boundaries, else 3.5 m.
   double widthAt(double s) const;
+
+  /// Height of the centre line [m]; nullopt where the map gives none.
+  std::optional<double> heightAt(double s) const;
 };
 
 /// A lane under or beside a map object, by the file's overlaps.
@@ -70,12 +80,12 @@ struct Area {
 /// Which lanes a spatial query looks at.
 struct LaneQuery {
   double max_distance = 1e9;             ///< from the point to the centre line [m]
-  std::optional<double> heading;         ///< only lanes whose heading at the foot point differs by at most ...
+  std::optional<double> heading;         ///< only stretches of lanes whose heading differs from this by at most ...
   double max_heading_difference = M_PI;  ///< ... this much [rad]
   bool drivable_only = true;
 };
 
-/// A lane near a point.
+/// A lane near a point, by the nearest place of a stretch of it that satisfies the query.
 struct LaneMatch {
   LaneIndex lane = 0;
   FrenetPoint frenet;
@@ -135,7 +145,8 @@ class HdMap {
   /// The nearest lane that satisfies `query`; nullopt where there is none.
   std::optional<LaneMatch> nearestLane(const Point2d& point, const LaneQuery& query) const;
 
-  /// Every lane within `query.max_distance`, the nearest first.
+  /// Every lane within `query.max_distance`, the nearest first; a lane that passes the point several times (a spiral
+  /// ramp, a turn back) once for each time.
   std::vector<LaneMatch> lanesWithin(const Point2d& point, const LaneQuery& query) const;
 
   /// The first area (in file order) that contains `point`; nullptr where none does.

@@ -49,6 +49,7 @@ struct OverlapData {
 struct LaneData {
   std::string id;
   std::vector<Point2d> center;
+  std::vector<float> heights;  ///< of the points of `center` [m]; empty where the file gives none
   LaneBoundary left, right;
   std::vector<WidthSample> left_widths, right_widths;
   double length = 0.0;       ///< as stated; the centre line's own length is what counts

@@ -14,7 +14,7 @@ namespace external_command {
 /// What convert() makes of a command that drives lanes.
 struct RoutingTask {
   RouteQuery query;
-  RoutingRequest request;             ///< the same as a message: goes out with the RoutingResponse
+  RoutingRequest request;             ///< the same as a message, with the nearest of several candidates
   std::vector<Point2d> way_points;    ///< for the display
   std::vector<std::string> warnings;  ///< for the report
 };
@@ -31,12 +31,15 @@ RoutingTask beginRoutingTask(const ProcessContext& context, const std::string& f
 void addBlackList(const HdMap& map, const std::vector<LaneSegment>& lanes, const std::vector<std::string>& roads,
                   RoutingTask* task);
 
-/// The lane point nearest to `pose` as the only goal.
+/// The lanes that `pose` may mean as goals.
 /// @throws OffMap
 void setGoal(const ProcessContext& context, const std::string& frame_id, const Pose& pose, const std::string& field,
              RoutingTask* task);
 
 /// Any of `candidates` as goal; the request names the first.
 void setGoals(const HdMap& map, const std::vector<LanePoint>& candidates, RoutingTask* task);
+
+/// The request with the candidates that `route` took as its way points.
+RoutingRequest requestOf(const HdMap& map, const RoutingTask& task, const Route& route);
 
 }  // namespace external_command

@@ -4,6 +4,7 @@
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
+#include <optional>
 #include <string>
 
 #include "external_command/core/pose.h"
@@ -19,6 +20,9 @@ class VehiclePose {
   /// Pose of `base_frame` in `map_frame`.
   /// @throws NotReady  there is none, or it is too old; the text names the frames and the age.
   Pose2d get() const;
+
+  /// Height of `base_frame` in `map_frame` [m]; nullopt where it is not known: a localization in the plane says 0.
+  std::optional<double> height() const;
 
   /// Pose of the frame `given` in `map_frame`; the identity for `map_frame` itself and for "". A slash before its name
   /// does not belong to it, see frameId().

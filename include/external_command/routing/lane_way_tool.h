@@ -12,6 +12,11 @@ namespace external_command {
 struct LaneWayParams {
   double snap_distance = 3.0;            ///< from a pose with heading to its lane, at most [m]
   double snap_heading = 1.0;             ///< between pose and lane, at most [rad]
+  double max_goal_distance = 10.0;       ///< from a pose without heading to its lane, at most [m]
+  double lane_keeping_error = 1.0;       ///< lanes that are further off by no more than this could be meant too [m]
+  double height_error = 2.0;             ///< the same by height, where pose and map have one [m]
+  double off_lane_price = 100.0;         ///< that a candidate costs for each metre it is off [m/m]
+  double off_heading_price = 100.0;      ///< that a candidate costs for each radian its heading is off [m/rad]
   double off_lane_distance = 2.0;        ///< a vehicle with no lane this near ... [m]
   double off_lane_heading = M_PI / 3.0;  ///< ... and within this of its heading [rad] is off the lanes (park-and-go)
   double park_and_go_radius = 20.0;      ///< it then starts from any lane this near [m]
@@ -27,21 +32,27 @@ class LaneWayTool {
  public:
   LaneWayTool(const HdMap& map, const LaneWayParams& params);
 
-  /// The nearest lane within `snap_distance` and `snap_heading` where a heading is given; the nearest at all where not.
+  /// Candidates for a way point or goal: the nearest lane, within `snap_distance` and `snap_heading` where a heading is
+  /// given, within `max_goal_distance` where not, and those that are off by at most `lane_keeping_error` more. Each
+  /// has the price of being off; the nearest comes first.
   /// @param name  of the field, "end_pose": error texts begin with it.
-  /// @throws OffMap  none is; the text names the nearest lane, its distance and heading difference, and the limit.
-  LanePoint fromPose(const Point2d& point, const std::optional<double>& heading, const std::string& name) const;
+  /// @throws OffMap  there is none; the text names the nearest lane, its distance and heading difference, and the
+  /// limit.
+  std::vector<LanePoint> fromPose(const Point2d& point, const std::optional<double>& heading,
+                                  const std::string& name) const;
 
   /// A point that is given by its lane.
   /// @param name  of the field, "waypoint[1]": error texts begin with it.
   /// @throws InvalidRequest  no such lane, none to drive on, or `s` lies more than 0.1 m outside it.
   LanePoint fromLane(const std::string& id, double s, const std::string& name) const;
 
-  /// Candidates for the start: the vehicle's own lane (one candidate), or, for a vehicle off the lanes, every lane
-  /// within `park_and_go_radius`, of which routing picks the one with the shortest route.
+  /// Candidates for the start: the vehicle's own lane and those that it could as well be on, as above but within
+  /// `off_lane_distance` and `off_lane_heading`; or, for a vehicle off the lanes, every lane within
+  /// `park_and_go_radius`, at no price, so that routing picks the one with the shortest route.
+  /// @param height  of the vehicle, where it is known [m].
   /// @throws OffMap  no lane within that radius.
   /// @throws InvalidRequest  the pose is not finite.
-  std::vector<LanePoint> fromVehicle(const Pose2d& vehicle) const;
+  std::vector<LanePoint> fromVehicle(const Pose2d& vehicle, const std::optional<double>& height = {}) const;
 
   /// True where `vehicle` is away from any lane.
   bool isOffLane(const Pose2d& vehicle) const;
@@ -56,6 +67,10 @@ class LaneWayTool {
   std::vector<LanePoint> within(const Point2d& point, double radius) const;
 
  private:
+  std::vector<LanePoint> candidates(const Point2d& point, LaneQuery query, const std::optional<double>& height) const;
+
+  LaneQuery ownLanes(const Pose2d& vehicle) const;
+
   const HdMap& map_;
   LaneWayParams params_;
 };

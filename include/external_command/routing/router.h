@@ -14,7 +14,8 @@ namespace external_command {
 /// A point on a lane's centre line.
 struct LanePoint {
   LaneIndex lane = 0;
-  double s = 0.0;  ///< [m]
+  double s = 0.0;      ///< [m]
+  double price = 0.0;  ///< added to the cost of a route that takes this candidate as start, way point or goal [m]
 };
 
 /// A part of a lane, ends included.
@@ -51,9 +52,10 @@ struct RouteQuery {
 struct Route {
   std::vector<RouteStep> steps;  ///< never empty
   double distance = 0.0;         ///< driven [m]; lanes side by side count as the last one taken
-  double cost = 0.0;             ///< what the route was chosen by: `distance` and the prices of RouterParams [m]
+  double cost = 0.0;             ///< what the route was chosen by: `distance` and all prices [m]
   std::size_t start = 0;         ///< which of `starts` was taken
   std::size_t goal = 0;          ///< which of `goals` was taken
+  std::vector<std::size_t> via;  ///< which candidate of each way point was taken
   std::vector<std::string> warnings;
 };
 
@@ -67,6 +69,10 @@ struct RouterParams {
   double min_turning_radius = 5.0;
   /// A change with less room than `min_lane_change_length` is made only where it saves this much more [m].
   double tight_lane_change_price = 30.0;
+
+  /// A way point or goal that lies no further behind the start, or behind where the way point before was passed, counts
+  /// as reached there [m].
+  double stopping_error = 0.5;
 
   /// @throws InvalidParameter  out of range.
   void validate() const;
@@ -82,8 +88,8 @@ class Router {
   const std::shared_ptr<const HdMap>& mapPtr() const;
   const RouterParams& params() const;
 
-  /// The cheapest route: metres driven, and a price for each lane change; among equals that with the fewest changes. A
-  /// goal behind the start on its own lane means a loop.
+  /// The cheapest route: metres driven, a price for each lane change, and those of the candidates taken; among equals
+  /// that with the fewest changes. A goal behind the start on its own lane means a loop, but for `stopping_error`.
   /// @throws InvalidRequest  an end is missing, or `s` lies outside its lane by more than 1 mm.
   /// @throws NoRoute  the lanes exist but nothing connects them, or the black list cuts every connection; the text says
   ///                  which leg, how many candidates were tried, and whether it would work without the black list.

@@ -36,6 +36,16 @@ double halfWidth(const std::vector<WidthSample>& samples, const LaneBoundary& bo
 
 }  // namespace
 
+std::optional<double> Lane::heightAt(double s) const {
+  if (heights.empty()) return std::nullopt;
+  const auto after = std::upper_bound(heights.begin(), heights.end(), s,
+                                      [](double value, const HeightSample& sample) { return value < sample.s; });
+  if (after == heights.begin()) return after->z;
+  const HeightSample& before = *(after - 1);
+  if (after == heights.end() || after->s <= before.s) return before.z;
+  return before.z + (after->z - before.z) * (s - before.s) / (after->s - before.s);
+}
+
 double Lane::widthAt(double s) const {
   return halfWidth(left_widths, left, center, s) + halfWidth(right_widths, right, center, s);
 }

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which lanes a route takes where 10 cm could decide: LaneWayTool and Router together.
+#include <gtest/gtest.h>
+
+#include "external_command/map/map_reader.h"
+#include "external_command/routing/lane_way_tool.h"
+#include "support/map_builder.h"
+#include "support/route_matchers.h"
+#include "support/routing_world.h"
+
+namespace external_command {
+namespace {
+
+constexpr double kWidth = MapBuilder::kLaneWidth;
+
+/// A place to go to, with a heading or without.
+struct Place {
+  double x, y;
+  std::optional<double> heading = {};
+};
+
+class Trip {
+ public:
+  explicit Trip(std::shared_ptr<const HdMap> map) : map_(std::move(map)), router_(map_, {}), tool_(*map_, {}) {}
+
+  Route drive(const Pose2d& vehicle, const std::vector<Place>& via, const Place& goal) const {
+    RouteQuery query{tool_.fromVehicle(vehicle), {}, points(goal), {}};
+    for (const Place& place : via) query.via.push_back(points(place));
+    const Route route = router_.findRoute(query, CancelToken());
+    EXPECT_TRUE(isConnected(route, *map_));
+    return route;
+  }
+
+  Route drive(const Pose2d& vehicle, const Place& goal) const { return drive(vehicle, {}, goal); }
+  std::string ids(const Route& route) const { return laneIds(route, *map_); }
+
+ private:
+  std::vector<LanePoint> points(const Place& place) const {
+    return tool_.fromPose({place.x, place.y}, place.heading, "end_pose");
+  }
+
+  std::shared_ptr<const HdMap> map_;
+  Router router_;
+  LaneWayTool tool_;
+};
+
+class DemoTown : public testing::Test {
+ protected:
+  const Trip trip{readMap(EC_SOURCE_DIR "/maps/demo_town/base_map.bin", {})};
+};
+
+TEST_F(DemoTown, IsCrossedTheSameFromTenCentimetresToEitherSide) {
+  for (const double y : {194.55, 194.65, 194.75, 194.85}) {
+    EXPECT_NEAR(trip.drive({203, y, 0}, {280, 194.75}).distance, 77.0, 0.5) << "from y = " << y;
+  }
+}
+
+TEST_F(DemoTown, HasItsGoalReachedAMillimetreBehindTheVehicle) {
+  EXPECT_EQ(trip.drive({90, 194.75, 0}, {89.999, 194.75}).distance, 0.0);
+  EXPECT_EQ(trip.drive({90, 194.75, 0}, {89.6, 194.75}).distance, 0.0);
+  EXPECT_GT(trip.drive({90, 194.75, 0}, {89.3, 194.75}).distance, 500.0);
+  EXPECT_NEAR(trip.drive({90, 194.75, 0}, {{120, 194.75}, {119.999, 194.75}}, {150, 194.75}).distance, 60.0, 1e-6);
+}
+
+/// Six lanes cross at the way point, the nearest 1.5 m off, four more within 0.6 m of that.
+TEST_F(DemoTown, IsCrossedByAWayPointInAJunctionOnWhicheverOfItsLanesSuitsTheRoute) {
+  const Route route = trip.drive({90, 194.75, 0}, {{220, 120}}, {478, 338.25});
+  EXPECT_NEAR(route.distance, 776.6, 0.5) << "510 m without it";
+}
+
+///                straight
+///   in ----------+--------> out_e      straight and right begin on top of each other
+///                 \\ right
+///                  | out_s
+class Fork : public testing::Test {
+ protected:
+  static std::shared_ptr<const HdMap> build() {
+    MapBuilder builder;
+    builder.lane("in", {-50, 0}, {0, 0}).lane("straight", {0, 0}, {20, 0}).lane("out_e", {20, 0}, {80, 0});
+    builder.arc("right", {0, 0, 0}, 20.0, -M_PI / 2.0).lane("out_s", {20, -20}, {20, -80});
+    builder.follow({"in", "straight", "out_e"}).follow({"in", "right", "out_s"});
+    return builder.build();
+  }
+  const Trip trip{build()};
+};
+
+TEST_F(Fork, IsLeftByEitherBranchFromWhereBothAreNear) {
+  for (const double y : {0.0, -0.1, 0.1}) {
+    const Route east = trip.drive({1.0, y, -0.05}, {60, 0});
+    EXPECT_EQ(trip.ids(east), "straight out_e");
+    EXPECT_NEAR(east.distance, 59.0, 0.1);
+    EXPECT_EQ(trip.ids(trip.drive({1.0, y, -0.05}, {20, -60})), "right out_s");
+  }
+}
+
+TEST_F(Fork, IsPassedByAWayPointOnItInEitherDirection) {
+  const Route east = trip.drive({-20, 0, 0}, {{1.0, -0.1}}, {60, 0});
+  EXPECT_NEAR(east.distance, 80.0, 0.1);
+  EXPECT_EQ(trip.ids(trip.drive({-20, 0, 0}, {{1.0, 0.1}}, {20, -60})), "in right out_s");
+}
+
+TEST_F(Fork, EndsWhereALaneBeginsOnThatLane) {
+  EXPECT_EQ(trip.ids(trip.drive({-20, 0, 0}, {20, 0, 0.0})), "in straight out_e");
+  EXPECT_EQ(trip.ids(trip.drive({-20, 0, 0}, {19.8, 0, 0.0})), "in straight");
+}
+
+TEST_F(Fork, TakesTheBranchThatTheWayPointIsClearlyOn) {
+  EXPECT_THROW(trip.drive({-20, 0, 0}, {{18.0, -11.5}}, {60, 0}), NoRoute);
+}
+
+/// One strip of road: east and west on top of each other.
+TEST(TwoWayLane, IsDrivenInTheDirectionThatLeadsToTheGoal) {
+  MapBuilder builder;
+  builder.lane("east", {0, 0}, {200, 0}).lane("west", {200, 0}, {0, 0});
+  const Trip trip(builder.build());
+  const Route west = trip.drive({150, 0, M_PI}, {50, 0});
+  EXPECT_EQ(trip.ids(west), "west");
+  EXPECT_NEAR(west.distance, 100.0, 1e-9);
+  EXPECT_EQ(trip.ids(trip.drive({50, 0, 0}, {150, 0})), "east");
+  EXPECT_THROW(trip.drive({50, 0, 0}, {150, 0, M_PI}), NoRoute) << "there is nowhere to turn round";
+}
+
+///   n_west <------------- a ring road: the far lane is reached by way of the end
+///   s_east ------------->
+class TwoWayStreet : public testing::Test {
+ protected:
+  static std::shared_ptr<const HdMap> build() {
+    MapBuilder builder;
+    builder.lane("s_east", {0, 0}, {400, 0}).lane("n_west", {400, kWidth}, {0, kWidth});
+    builder.lane("turn", std::vector<Point2d>{{400, 0}, {410, 1}, {410, 2.5}, {400, kWidth}});
+    builder.follow({"s_east", "turn", "n_west"});
+    return builder.build();
+  }
+  const Trip trip{build()};
+};
+
+TEST_F(TwoWayStreet, ReachesAGoalBetweenItsLanesOnTheSideItComesBy) {
+  for (const double y : {1.3, 1.75, 2.2}) {
+    EXPECT_NEAR(trip.drive({10, 0, 0}, {100, y}).distance, 90.0, 1e-6) << "goal at y = " << y;
+  }
+}
+
+TEST_F(TwoWayStreet, ReachesAGoalOnTheFarLaneThere) {
+  EXPECT_GT(trip.drive({10, 0, 0}, {100, kWidth}).distance, 600.0);
+  EXPECT_GT(trip.drive({10, 0, 0}, {100, kWidth + 5.0}).distance, 600.0) << "before a house on that side";
+}
+
+///   left  ---------------->
+///   right ---------------->
+class ParallelLanes : public testing::Test {
+ protected:
+  static std::shared_ptr<const HdMap> build() {
+    MapBuilder builder;
+    builder.lane("left", {0, kWidth}, {400, kWidth}).lane("right", {0, 0}, {400, 0}).beside({"left", "right"});
+    return builder.build();
+  }
+  const Trip trip{build()};
+};
+
+TEST_F(ParallelLanes, ArePassedByAWayPointBetweenThemWithoutAChange) {
+  for (const double y : {1.5, 1.75, 2.0}) {
+    EXPECT_EQ(trip.ids(trip.drive({10, 0, 0}, {{200, y}}, {390, 0})), "right");
+    EXPECT_EQ(trip.ids(trip.drive({10, kWidth, 0}, {{200, y, 0.0}}, {390, kWidth})), "left");
+  }
+}
+
+TEST_F(ParallelLanes, AreChangedForAWayPointThatIsClearlyOnTheOther) {
+  EXPECT_EQ(trip.ids(trip.drive({10, 0, 0}, {{200, kWidth}}, {390, 0})), "right left right");
+  EXPECT_EQ(trip.ids(trip.drive({10, 0, 0}, {390, 2.3})), "right left");
+}
+
+TEST_F(ParallelLanes, AreStartedOnEitherFromTheLineBetween) {
+  EXPECT_EQ(trip.ids(trip.drive({10, 1.72, 0}, {390, kWidth})), "left");
+  EXPECT_EQ(trip.ids(trip.drive({10, 1.78, 0}, {390, 0})), "right");
+}
+
+}  // namespace
+}  // namespace external_command
