@@ -6,7 +6,7 @@
 EC_DEBIAN_PACKAGES=(
   # build
   g++ make cmake catkin ros-message-generation protobuf-compiler
-  libroscpp-dev libnodelet-dev libnodeletlib-dev pluginlib-dev libtf2-dev libtf2-ros-dev libtf2-geometry-msgs-dev
+  libroscpp-dev libnodelet-dev libnodeletlib-dev pluginlib-dev libtf2-dev libtf2-msgs-dev libtf2-geometry-msgs-dev
   libgeometry-msgs-dev libnav-msgs-dev libstd-msgs-dev libvisualization-msgs-dev
   ros-geometry-msgs ros-nav-msgs ros-std-msgs ros-visualization-msgs
   libboost-dev libboost-thread-dev libeigen3-dev libompl-dev libprotobuf-dev
@@ -30,7 +30,7 @@ EC_NOETIC_PACKAGES=(
   ros-noetic-nav-msgs ros-noetic-nodelet ros-noetic-pluginlib ros-noetic-rosbag ros-noetic-rosbash ros-noetic-roscpp
   ros-noetic-roslaunch ros-noetic-rosnode ros-noetic-rosparam ros-noetic-rospy ros-noetic-rosservice
   ros-noetic-rostest ros-noetic-rostopic ros-noetic-rviz ros-noetic-std-msgs ros-noetic-tf2
-  ros-noetic-tf2-geometry-msgs ros-noetic-tf2-ros ros-noetic-visualization-msgs
+  ros-noetic-tf2-geometry-msgs ros-noetic-tf2-msgs ros-noetic-tf2-ros ros-noetic-visualization-msgs
 )
 
 # ec_install [--picture]: installs what is missing of the packages above; a fraction of a second where all is there.

@@ -16,6 +16,7 @@ namespace external_command {
 struct ManoeuvrePlanner::LatestGrid {
   std::mutex mutex;
   nav_msgs::OccupancyGrid::ConstPtr message;
+  ros::Time stamp;  ///< of the message, or when it came where it has none
 };
 
 namespace {
@@ -77,6 +78,7 @@ ManoeuvrePlanner::ManoeuvrePlanner(ros::NodeHandle nh, const ParameterReader& re
       [latest = latest_grid_](const nav_msgs::OccupancyGrid::ConstPtr& message) {
         const std::lock_guard<std::mutex> lock(latest->mutex);
         latest->message = message;
+        latest->stamp = message->header.stamp.isZero() ? ros::Time::now() : message->header.stamp;
       };
   grid_subscriber_ = nh.subscribe<nav_msgs::OccupancyGrid>(grid_params_.topic, 1, keep);
 }
@@ -87,22 +89,35 @@ std::optional<OccupancyGrid> ManoeuvrePlanner::grid() const {
   const std::string& topic = grid_params_.topic;
   if (topic.empty()) return std::nullopt;
   nav_msgs::OccupancyGrid::ConstPtr message;
+  ros::Time stamp;
   {
     const std::lock_guard<std::mutex> lock(latest_grid_->mutex);
     message = latest_grid_->message;
+    stamp = latest_grid_->stamp;
   }
   if (!message) {
     throw NotReady(text("no obstacle grid has come on ", topic, " (~obstacle_grid_name); is it published?"));
   }
-  const double age = (ros::Time::now() - message->header.stamp).toSec();
-  if (!message->header.stamp.isZero() && grid_params_.max_age > 0.0 && age > grid_params_.max_age) {
-    throw NotReady(text("the obstacle grid on ", topic, " is ", seconds(age), " old; the limit is ",
-                        seconds(grid_params_.max_age), " (~max_grid_age; 0 takes it at any age)"));
-  }
+  requireFresh(stamp);
   try {
     return toGrid(*message, context_.vehiclePose().ofFrame(message->header.frame_id), grid_params_);
   } catch (const InvalidRequest& error) {
     throw NotReady(text("the obstacle grid on ", topic, " cannot be placed: ", error.what()));
+  }
+}
+
+void ManoeuvrePlanner::requireFresh(ros::Time stamp) const {
+  if (grid_params_.max_age <= 0.0) return;
+  const double age = ros::Time::now().toSec() - stamp.toSec();
+  if (age > grid_params_.max_age) {
+    throw NotReady(text("the obstacle grid on ", grid_params_.topic, " is ", seconds(age), " old; the limit is ",
+                        seconds(grid_params_.max_age), " (~max_grid_age; 0 takes it at any age)"));
+  }
+  const double max_ahead = context_.params().max_future_stamp;
+  if (-age > max_ahead) {
+    throw NotReady(text("the obstacle grid on ", grid_params_.topic, " is stamped ", seconds(-age),
+                        " in the future; the limit is ", seconds(max_ahead),
+                        " (~max_future_stamp of the component): do the clocks agree?"));
   }
 }
 

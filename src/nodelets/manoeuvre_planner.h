@@ -49,6 +49,9 @@ class ManoeuvrePlanner {
  private:
   struct LatestGrid;
 
+  /// @throws NotReady  a grid of that stamp is too old, or of the future.
+  void requireFresh(ros::Time stamp) const;
+
   void showConflicts(const std::vector<Pose2d>& poses, const Region& region, CommandScene scene) const;
 
   ProcessContext& context_;

@@ -42,6 +42,7 @@ ContextParams readContextParams(const ParameterReader& reader) {
   params.map_frame = frameId(params.map_frame);
   params.base_frame = frameId(params.base_frame);
   reader.readWithin("max_pose_age", 0.01, 3600.0, &params.max_pose_age);
+  reader.readWithin("max_future_stamp", 0.0, 3600.0, &params.max_future_stamp);
   reader.readWithin("planner_silence_timeout", 0.1, 86400.0, &params.planner_silence_timeout);
   reader.readName("output_command_status_name", &params.status_topic);
   reader.readName("command_log_name", &params.log_topic);
@@ -71,7 +72,7 @@ ProcessContext::ProcessContext(const ros::NodeHandle& nh, const ros::NodeHandle&
     : params_(readContextParams(ParameterReader(parameters))),
       nh_(onGlobalQueue(nh)),
       router_(routerOf(params_)),
-      vehicle_pose_(params_.map_frame, params_.base_frame, params_.max_pose_age),
+      vehicle_pose_(params_.map_frame, params_.base_frame, params_.max_pose_age, params_.max_future_stamp),
       registry_([publisher = advertise<CommandStatus>(params_.status_topic, false)](const CommandStatus& status) {
         publisher.publish(status);
       }),

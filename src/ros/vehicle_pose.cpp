@@ -22,22 +22,33 @@ Pose2d toPose(const geometry_msgs::Transform& transform) {
 
 }  // namespace
 
-VehiclePose::VehiclePose(std::string map_frame, std::string base_frame, double max_age)
-    : map_frame_(std::move(map_frame)), base_frame_(std::move(base_frame)), max_age_(max_age), listener_(buffer_) {}
+VehiclePose::VehiclePose(std::string map_frame, std::string base_frame, double max_age, double max_future_stamp)
+    : map_frame_(std::move(map_frame)),
+      base_frame_(std::move(base_frame)),
+      max_age_(max_age),
+      max_future_stamp_(max_future_stamp),
+      feed_(max_future_stamp) {}
 
 Pose2d VehiclePose::get() const {
   geometry_msgs::TransformStamped transform;
   try {
-    transform = buffer_.lookupTransform(map_frame_, base_frame_, ros::Time(0));
+    transform = feed_.store().lookup(map_frame_, base_frame_);
   } catch (const tf2::TransformException& error) {
     throw NotReady(text("the vehicle's pose is not known: no transform ", map_frame_, " -> ", base_frame_, " (",
-                        error.what(), "); start the localization, or set ~map_frame and ~base_frame"));
+                        error.what(), "); start the localization, or set ~map_frame and ~base_frame", refusal()));
   }
-  const double age = (ros::Time::now() - transform.header.stamp).toSec();
+  // As numbers: a Duration throws where the difference is too great for it.
+  const double age = ros::Time::now().toSec() - transform.header.stamp.toSec();
   const bool is_static = transform.header.stamp.isZero();
   if (!is_static && age > max_age_) {
-    throw NotReady(text("the vehicle's pose is ", age, " s old (transform ", map_frame_, " -> ", base_frame_,
-                        "); the limit is ", max_age_, " s (~max_pose_age): has the localization stopped?"));
+    throw NotReady(text("the vehicle's pose is ", seconds(age), " old (transform ", map_frame_, " -> ", base_frame_,
+                        "); the limit is ", seconds(max_age_), " (~max_pose_age): has the localization stopped?",
+                        refusal()));
+  }
+  if (!is_static && -age > max_future_stamp_) {
+    throw NotReady(text("the vehicle's pose is stamped ", seconds(-age), " in the future (transform ", map_frame_,
+                        " -> ", base_frame_, "); the limit is ", seconds(max_future_stamp_),
+                        " (~max_future_stamp): do the clocks agree?"));
   }
   const Pose2d pose = toPose(transform.transform);
   if (!pose.isFinite()) throw NotReady(text("the transform ", map_frame_, " -> ", base_frame_, " is not finite"));
@@ -46,18 +57,23 @@ Pose2d VehiclePose::get() const {
 
 std::optional<double> VehiclePose::height() const {
   try {
-    const double z = buffer_.lookupTransform(map_frame_, base_frame_, ros::Time(0)).transform.translation.z;
+    const double z = feed_.store().lookup(map_frame_, base_frame_).transform.translation.z;
     return z != 0.0 && std::isfinite(z) ? std::optional<double>(z) : std::nullopt;
   } catch (const tf2::TransformException&) {
     return std::nullopt;
   }
 }
 
+std::string VehiclePose::refusal() const {
+  const std::string recent = feed_.recentRefusal();
+  return recent.empty() ? recent : "; " + recent;
+}
+
 Pose2d VehiclePose::ofFrame(const std::string& given) const {
   const std::string frame = frameId(given);
   if (frame.empty() || frame == map_frame_) return {};
   try {
-    return toPose(buffer_.lookupTransform(map_frame_, frame, ros::Time(0)).transform);
+    return toPose(feed_.store().lookup(map_frame_, frame).transform);
   } catch (const tf2::TransformException& error) {
     throw InvalidRequest(text("header.frame_id '", frame, "' cannot be transformed to '", map_frame_,
                               "': ", error.what(), "; leave it empty for '", map_frame_, "'"));

@@ -24,6 +24,7 @@ struct ContextParams {
   std::string map_frame = "map";
   std::string base_frame = "base_link";
   double max_pose_age = 1.0;             ///< an older vehicle pose counts as missing [s]
+  double max_future_stamp = 0.5;         ///< pose, grid, chassis stamped further ahead of now do not count [s]
   double planner_silence_timeout = 5.0;  ///< a running command's message tells when nothing was reported so long [s]
   std::string status_topic = "external_command/status";
   std::string log_topic = "external_command/log";

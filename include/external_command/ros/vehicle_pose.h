@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
-
 #include <optional>
 #include <string>
 
 #include "external_command/core/pose.h"
+#include "external_command/ros/transform_feed.h"
 
 namespace external_command {
 
 /// The vehicle's pose, and other frames, by tf2. Thread-safe; never waits.
 class VehiclePose {
  public:
-  /// @param max_age  a vehicle pose older than this counts as missing [s].
-  VehiclePose(std::string map_frame, std::string base_frame, double max_age);
+  /// @param max_age           a vehicle pose older than this counts as missing [s].
+  /// @param max_future_stamp  and one stamped further ahead of now too [s].
+  VehiclePose(std::string map_frame, std::string base_frame, double max_age, double max_future_stamp);
 
   /// Pose of `base_frame` in `map_frame`.
-  /// @throws NotReady  there is none, or it is too old; the text names the frames and the age.
+  /// @throws NotReady  there is none, it is too old, or of the future; the text names the frames and the age.
   Pose2d get() const;
 
   /// Height of `base_frame` in `map_frame` [m]; nullopt where it is not known: a localization in the plane says 0.
@@ -30,10 +29,12 @@ class VehiclePose {
   Pose2d ofFrame(const std::string& given) const;
 
  private:
+  /// What tells of transforms that were refused, to be added to an error's text.
+  std::string refusal() const;
+
   const std::string map_frame_, base_frame_;
-  const double max_age_;
-  tf2_ros::Buffer buffer_;
-  tf2_ros::TransformListener listener_;
+  const double max_age_, max_future_stamp_;
+  const TransformFeed feed_;
 };
 
 }  // namespace external_command

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "external_command/ros/transform_feed.h"
+
+#include <ros/console.h>
+
+#include <exception>
+
+#include "external_command/core/text.h"
+
+namespace external_command {
+
+namespace {
+
+constexpr int kQueueSize = 100;
+constexpr double kTidyPeriod = 0.5;  // [s]
+constexpr double kTellPeriod = 5.0;  // between two lines of the log [s]
+constexpr double kRecent = 10.0;     // a refusal is told of for so long [s]
+
+double steadyNow() { return ros::SteadyTime::now().toSec(); }
+
+}  // namespace
+
+TransformFeed::TransformFeed(double max_future_stamp) : store_(max_future_stamp) {
+  nh_.setCallbackQueue(lane_.queue());
+  subscribe("/tf", false, &moving_);
+  subscribe("/tf_static", true, &fixed_);
+  ros::SteadyTimerOptions options;
+  options.period = ros::WallDuration(kTidyPeriod);
+  options.callback = [this](const ros::SteadyTimerEvent&) { store_.tidy(ros::Time::now(), steadyNow()); };
+  options.callback_queue = lane_.queue();
+  tidying_ = nh_.createSteadyTimer(options);
+}
+
+TransformFeed::~TransformFeed() {
+  tidying_.stop();
+  moving_.shutdown();
+  fixed_.shutdown();
+  lane_.stop();
+}
+
+void TransformFeed::subscribe(const std::string& topic, bool is_static, ros::Subscriber* subscriber) {
+  const boost::function<void(const tf2_msgs::TFMessage::ConstPtr&)> callback =
+      [this, is_static](const tf2_msgs::TFMessage::ConstPtr& message) { take(*message, is_static); };
+  *subscriber = nh_.subscribe<tf2_msgs::TFMessage>(topic, kQueueSize, callback);
+}
+
+void TransformFeed::take(const tf2_msgs::TFMessage& message, bool is_static) {
+  const ros::Time now = ros::Time::now();
+  const double arrival = steadyNow();
+  for (const auto& transform : message.transforms) {
+    std::string problem;
+    try {
+      problem = store_.add(transform, is_static, now, arrival);
+    } catch (const std::exception& error) {
+      problem = text("a transform was dropped: ", error.what());
+    } catch (...) {
+      problem = "a transform was dropped: an exception of unknown type";
+    }
+    if (!problem.empty()) noteRefusal(problem);
+  }
+}
+
+void TransformFeed::noteRefusal(const std::string& reason) {
+  const double now = steadyNow();
+  std::uint64_t count = 0;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    last_refusal_ = reason;
+    last_refused_at_ = now;
+    count = ++refused_;
+  }
+  if (count > 1 && now - last_told_ < kTellPeriod) return;
+  last_told_ = now;
+  ROS_WARN_STREAM(reason << " (" << count << " refused so far)");
+}
+
+std::string TransformFeed::recentRefusal() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (refused_ == 0 || steadyNow() - last_refused_at_ > kRecent) return "";
+  return text(last_refusal_, " (", refused_, " refused so far)");
+}
+
+}  // namespace external_command
