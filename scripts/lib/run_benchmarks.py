@@ -40,7 +40,7 @@ def measure_service(build_dir, map_file):
     """The round trip of a lane-follow call over a long route, beside that of an empty service of the same process."""
     stack = Stack(build_dir)
     try:
-        stack.launch("external_command_process.launch", map=map_file, map_origin="auto", manager="none",
+        stack.launch("external_command_process.launch", map=map_file, map_origin="auto",
                      executable="service_benchmark_server")
         from demo_drive import Drive  # rospy reads ROS_MASTER_URI when it is first imported
         drive = Drive(stack)

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "external_command_process_component.h"
 
+#include <ros/names.h>
+
 #include <algorithm>
 #include <cctype>
 #include <pluginlib/class_loader.hpp>
 #include <set>
 
 #include "external_command/core/text.h"
+#include "external_command/ros/parameter_check.h"
 #include "external_command/ros/status.h"
 
 namespace external_command {
 
 namespace {
-
-const std::vector<std::string> kDefaultProcessors = {"external_command/LaneFollowCommandProcessor"};
 
 /// "my_package/SortParcelsProcessor" -> "sort_parcels_processor".
 std::string nodeletNameOf(const std::string& type) {
@@ -48,8 +49,17 @@ ExternalCommandProcessComponent::~ExternalCommandProcessComponent() {
 }
 
 void ExternalCommandProcessComponent::start() {
-  std::vector<std::string> processors = kDefaultProcessors;
+  noteKnownParameter(parameters().nameOf("num_worker_threads"));  // nodelet's own
+  std::vector<std::string> processors, more;
+  XmlRpc::XmlRpcValue value;
+  if (!parameters().raw("processors", &value)) {
+    throw InvalidParameter(text("parameter ", parameters().nameOf("processors"),
+                                " is not set: nothing would be served. ",
+                                "external_command_process.launch loads it from config/processors.yaml"));
+  }
   parameters().read("processors", &processors);
+  parameters().read("more_processors", &more);
+  processors.insert(processors.end(), more.begin(), more.end());
   loadProcessors(processors);
 }
 
@@ -64,6 +74,20 @@ void ExternalCommandProcessComponent::open() {
     throw InternalError(text("service ", nh.resolveName(service),
                              " is advertised by this process already; is the component loaded twice?"));
   }
+  tellWhatIsServed();
+}
+
+void ExternalCommandProcessComponent::tellWhatIsServed() {
+  static const std::set<std::string> kOfEveryNode = {"get_loggers", "set_logger_level", "load_nodelet",
+                                                     "unload_nodelet", "list"};
+  std::string names;
+  for (const std::string& service : context().masterWatch().services()) {
+    if (kOfEveryNode.count(service.substr(service.rfind('/') + 1)) != 0) continue;
+    names += (names.empty() ? "" : ", ") + service;
+  }
+  const std::string& map = context().params().map_file;
+  ROS_INFO_STREAM(getName() << " is ready, " << (map.empty() ? "without a map" : "with the map " + map)
+                            << "; this process serves " << names);
 }
 
 void ExternalCommandProcessComponent::loadProcessors(const std::vector<std::string>& processors) {
@@ -90,6 +114,7 @@ std::string ExternalCommandProcessComponent::load(const std::string& type) {
   if (!unknown.empty()) return unknown;
   // Beside the component, not below it: the same relative names then mean the same however a processor is loaded.
   const std::string name = ros::names::append(ros::names::parentNamespace(getName()), nodeletNameOf(type));
+  context().masterWatch().keepParameters(name);
   try {
     if (loader_.load(name, type, getRemappingArgs(), getMyArgv())) return "";
   } catch (const std::exception& error) {

@@ -24,6 +24,8 @@ class ExternalCommandProcessComponent : public CommandProcessor {
   void start() override;
   void open() override;
 
+  void tellWhatIsServed();
+
   void loadProcessors(const std::vector<std::string>& processors);
 
   /// Empty where the processor runs, else why it does not.

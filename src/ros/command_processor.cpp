@@ -4,11 +4,14 @@
 #include <nodelet/detail/callback_queue.h>
 #include <ros/console.h>
 
+#include <boost/core/demangle.hpp>
 #include <map>
 #include <mutex>
 #include <stdexcept>
+#include <typeinfo>
 
 #include "external_command/core/text.h"
+#include "external_command/ros/parameter_check.h"
 
 namespace external_command {
 
@@ -22,6 +25,11 @@ struct StartFailures {
 StartFailures& startFailures() {
   static StartFailures failures;
   return failures;
+}
+
+/// Others may read parameters without a ParameterReader.
+bool isOfThisPackage(const CommandProcessor& processor) {
+  return boost::core::demangle(typeid(processor).name()).rfind("external_command::", 0) == 0;
 }
 
 }  // namespace
@@ -57,6 +65,9 @@ void CommandProcessor::startAll() {
   context_ = ProcessContext::acquire(getNodeHandle(), contextParameters());
   start();
   open();
+  const std::string& ns = getPrivateNodeHandle().getNamespace();
+  context_->masterWatch().keepParameters(ns);
+  if (isOfThisPackage(*this)) warnOfStrayParameters(ns);
 }
 
 /// nodelet::Loader deletes the callback queues of a nodelet that did not start before the nodelet; its subscribers

@@ -4,9 +4,14 @@
 #include <ros/init.h>
 #include <ros/master.h>
 #include <ros/names.h>
+#include <ros/param.h>
 #include <ros/time.h>
 
+#include <algorithm>
 #include <cstdlib>
+
+#include "external_command/core/nearest_words.h"
+#include "external_command/ros/parameter_check.h"
 
 namespace external_command {
 
@@ -14,6 +19,7 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
+constexpr const char* kVehicleSizes[] = {"wheelbase", "width", "front_overhang", "rear_overhang", "min_turning_radius"};
 constexpr int kMasterTries = 3;
 constexpr double kMasterPause = 0.2;  // [s]
 
@@ -67,9 +73,34 @@ void requireRange(const std::string& name, Number low, Number high, Number value
   throw InvalidParameter(text("parameter ", name, " is ", value, "; it must lie in [", low, ", ", high, "]"));
 }
 
+/// What is set beside the sizes of a vehicle, and may be one that is misspelt.
+std::vector<std::string> otherVehicleKeys(const ParameterReader& reader) {
+  std::vector<std::string> keys;
+  XmlRpcValue tree;
+  if (!ros::param::get(reader.name(), tree) || tree.getType() != XmlRpcValue::TypeStruct) return keys;
+  for (const auto& item : tree) keys.push_back(item.first);
+  for (const char* size : kVehicleSizes) keys.erase(std::remove(keys.begin(), keys.end(), size), keys.end());
+  return keys;
+}
+
+void requireVehicleSizes(const ParameterReader& reader) {
+  std::string names;
+  for (const std::string& key : missingVehicleSizes(reader)) {
+    NearestWords near(key);
+    for (const std::string& other : otherVehicleKeys(reader)) near.offer(other);
+    names += (names.empty() ? "" : ", ") + reader.nameOf(key);
+    if (!near.words().empty()) names += text(" (", near.words().front(), " is set; is that what it is meant to be?)");
+  }
+  if (names.empty()) return;
+  throw InvalidParameter(text("parameters not set: ", names, " [m]; a vehicle's size has no default. ",
+                              "external_command_process.launch loads them from its vehicle:=FILE, a copy of ",
+                              "config/vehicle.yaml"));
+}
+
 }  // namespace
 
 bool ParameterReader::raw(const std::string& key, XmlRpcValue* value) const {
+  noteKnownParameter(nameOf(key));
   for (int tries = 0; tries < kMasterTries && !ros::isShuttingDown(); ++tries) {
     if (nh_.getParam(key, *value)) return true;
     if (ros::master::check()) return false;
@@ -138,7 +169,17 @@ void ParameterReader::readPath(const std::string& key, std::string* value) const
   if (is_below_home && home != nullptr) *value = home + value->substr(1);
 }
 
+std::vector<std::string> missingVehicleSizes(const ParameterReader& reader) {
+  std::vector<std::string> missing;
+  for (const char* key : kVehicleSizes) {
+    XmlRpcValue value;
+    if (!reader.raw(key, &value)) missing.emplace_back(key);
+  }
+  return missing;
+}
+
 VehicleParams readVehicleParams(const ParameterReader& reader) {
+  requireVehicleSizes(reader);
   VehicleParams vehicle;
   reader.read("wheelbase", &vehicle.wheelbase);
   reader.read("width", &vehicle.width);

@@ -7,6 +7,7 @@
 #include "external_command/core/text.h"
 #include "external_command/ros/frame_id.h"
 #include "external_command/ros/map_store.h"
+#include "external_command/ros/parameter_check.h"
 
 namespace external_command {
 
@@ -28,6 +29,7 @@ ros::NodeHandle onGlobalQueue(ros::NodeHandle nh) {
 /// Tells programs that know the map file's coordinates what to subtract from them.
 void publishOrigin(const ros::NodeHandle& parameters, const Router* router) {
   const Point2d origin = router ? router->map().origin() : Point2d::Zero();
+  noteKnownParameter(parameters.resolveName("map_origin_resolved"));
   parameters.setParam("map_origin_resolved", std::vector<double>{origin.x(), origin.y()});
 }
 
@@ -79,6 +81,7 @@ ProcessContext::ProcessContext(const ros::NodeHandle& nh, const ros::NodeHandle&
       display_(nh_, {params_.path_topic, params_.markers_topic, params_.map_frame, params_.base_frame, params_.vehicle},
                router_ ? router_->mapPtr() : nullptr) {
   publishOrigin(parameters, router_.get());
+  master_watch_->keepParameters(parameters.getNamespace());
   ros::SteadyTimerOptions options;
   options.period = ros::WallDuration(kSilenceCheckPeriod);
   options.callback = [this](const ros::SteadyTimerEvent&) { registry_.noteSilence(params_.planner_silence_timeout); };

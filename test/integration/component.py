@@ -6,7 +6,9 @@ import subprocess
 import tempfile
 
 import roslib.packages
+import rospkg
 import rospy
+import yaml
 
 import support
 
@@ -14,7 +16,8 @@ LANE_FOLLOW = "external_command/LaneFollowCommandProcessor"
 
 
 class Component:
-    """`external_command_process` in `namespace`; `parameters`: those of the namespace.
+    """`external_command_process` in `namespace`; `parameters`: those of the namespace. A parameter of the vehicle that is
+    None is not set.
 
         with Component("/nowhere", {"external_command": {"processors": []}}) as component:
             code = component.wait_for_end()
@@ -28,13 +31,30 @@ class Component:
         self._process = None
 
     def __enter__(self):
-        for key, value in self._parameters.items():
+        for key, value in self._complete(self._parameters).items():
             rospy.set_param(rospy.names.ns_join(self.namespace, key), value)
+        self.start()
+        return self
+
+    def start(self):
+        """Once more after its end too; with the parameters that are there."""
         executable = roslib.packages.find_node("external_command", "external_command_process")[0]
         self._process = subprocess.Popen(
             [executable, "__ns:=" + self.namespace, "__name:=external_command"], env=self._environment,
             stdin=subprocess.DEVNULL, stdout=self._log, stderr=subprocess.STDOUT)
-        return self
+
+    @staticmethod
+    def _complete(parameters):
+        """The size of the vehicle added, where the parameters do not say it."""
+        own = parameters.get("external_command", {})
+        vehicle = own.get("vehicle", {})
+        if not own or not isinstance(vehicle, dict):
+            return parameters
+        config = os.path.join(rospkg.RosPack().get_path("external_command"), "config", "vehicle.yaml")
+        with open(config, encoding="utf-8") as file:
+            complete = dict(yaml.safe_load(file), **vehicle)
+        size = {key: value for key, value in complete.items() if value is not None}
+        return dict(parameters, external_command=dict(own, vehicle=size))
 
     def __exit__(self, *_):
         if self._process.poll() is None:

@@ -2,13 +2,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the component says and does when a processor, or a parameter, is wrong."""
 import os
+import signal
 import subprocess
 import tempfile
 import textwrap
+import time
 import unittest
 
+import rospkg
 import rospy
 import rostest
+import yaml
 
 import support
 from component import LANE_FOLLOW, Component
@@ -147,6 +151,95 @@ class LoadingTest(unittest.TestCase):
         routing = {"tight_lane_change_price": float("nan")}
         self.assert_stops(component([LANE_FOLLOW], routing=routing), "routing/tight_lane_change_price is nan",
                           "[0, 1000000]")
+
+    def test_a_missing_size_of_the_vehicle_stops_the_start_with_its_name(self):
+        for key in ("wheelbase", "width", "front_overhang", "rear_overhang", "min_turning_radius"):
+            with self.subTest(key):
+                self.assert_stops(component([LANE_FOLLOW], vehicle={key: None}), NAMESPACE + "/external_command/vehicle/" + key,
+                                  "not set")
+        self.assert_stops(component([LANE_FOLLOW], vehicle={"wheelbase": None, "weelbase": 2.8}), "vehicle/wheelbase",
+                          "weelbase is set")
+
+    def test_a_process_without_parameters_says_where_they_come_from(self):
+        self.assert_stops(Component(NAMESPACE, {}), NAMESPACE + "/external_command", "processors", "vehicle",
+                          "external_command_process.launch")
+        self.assert_stops(Component(NAMESPACE, {"external_command": {"map_file": ""}}), "processors")
+
+    def test_warns_of_a_key_that_nothing_reads(self):
+        others = {
+            "lane_follow_command_processor": {"free_space": {"margni": 0.2}, "obstacle_grid": "grid"},
+            "action_command_processor": {"scenarios": {"stopp": ["EMERGENCY_STOP"]}},
+        }
+        own = {"routing": {"snap_distnace": 1.0}, "vehicle": {"max_sped": 3.0}, "map_fiel": "", "default_speed_limt": 5.0}
+        prefix = NAMESPACE + "/"
+        self.assert_starts(
+            component([ACTION, LANE_FOLLOW], others, **own),
+            *("parameter %s%s is set, but nothing reads it; did you mean %s%s?" % (prefix, wrong, prefix, right)
+              for wrong, right in (
+                  ("external_command/routing/snap_distnace", "external_command/routing/snap_distance"),
+                  ("external_command/vehicle/max_sped", "external_command/vehicle/max_speed"),
+                  ("external_command/map_fiel", "external_command/map_file"),
+                  ("external_command/default_speed_limt", "external_command/routing/default_speed_limit"),
+                  ("lane_follow_command_processor/free_space/margni", "lane_follow_command_processor/free_space/margin"),
+                  ("action_command_processor/scenarios/stopp", "action_command_processor/scenarios/stop"))),
+            "parameter %slane_follow_command_processor/obstacle_grid is set" % prefix)
+
+    def test_says_when_it_is_ready_and_what_it_serves_and_warns_of_nothing_in_its_own_configuration(self):
+        folder = os.path.join(rospkg.RosPack().get_path("external_command"), "config")
+        with open(os.path.join(folder, "external_command.yaml"), encoding="utf-8") as file:
+            parameters = yaml.safe_load(file)
+        with open(os.path.join(folder, "processors.yaml"), encoding="utf-8") as file:
+            parameters["external_command"].update(yaml.safe_load(file))
+        parameters["external_command"]["more_processors"] = [ADAPTER]
+        with Component(NAMESPACE, parameters) as started:
+            support.wait_until(lambda: "is ready" in started.output, "it is ready")
+            ready = next(line for line in started.output.splitlines() if "is ready" in line)
+            for service in ("lane_follow", "valet_parking", "free_space", "path_follow", "precise_parking", "zone_cover",
+                            "action", "speed", "chassis", "command_status"):
+                self.assertIn("%s/external_command/%s" % (NAMESPACE, service), ready)
+            self.assertIn("without a map", ready)
+            self.assertNotIn("WARN", started.output)
+
+    def test_does_not_repeat_what_stops_it_as_fast_as_it_is_started(self):
+        wrong = component([LANE_FOLLOW], map_file="/nowhere/base_map.bin")
+        with wrong:
+            wrong.wait_for_end()
+            durations = []
+            for _ in range(2):
+                begin = time.monotonic()
+                wrong.start()
+                self.assertEqual(wrong.wait_for_end(), 1, wrong.output)
+                durations.append(time.monotonic() - begin)
+            self.assertGreater(durations[0], 2.0)
+            self.assertGreater(durations[1], 4.0)
+            self.assertIn("it is the same as before", wrong.output)
+            rospy.set_param(NAMESPACE + "/external_command/map_file", "")
+            wrong.start()
+            support.wait_until(lambda: "is ready" in wrong.output, "it starts when that is mended")
+
+    def test_a_second_one_of_the_same_name_gives_up_and_leaves_the_first_alone(self):
+        with component([ACTION]) as first:
+            first.service("external_command/command_status", GetCommandStatus)
+            second = component([ACTION])
+            second.start()
+            self.assertEqual(second.wait_for_end(), 1, second.output)
+            self.assertIn("there is a node %s/external_command already, process %d" % (NAMESPACE, first.pid), second.output)
+            self.assertIn("FATAL", second.output)
+            first.send_signal(signal.SIGSTOP)
+            second.start()
+            self.assertEqual(second.wait_for_end(), 1, second.output)
+            self.assertIn("does not answer", second.output)
+            first.send_signal(signal.SIGCONT)
+            first.service("external_command/command_status", GetCommandStatus)(command_id=1)
+            self.assertTrue(first.is_running)
+
+    def test_takes_the_name_of_one_that_was_killed(self):
+        with component([ACTION]) as first:
+            first.service("external_command/command_status", GetCommandStatus)
+            first.send_signal(signal.SIGKILL)
+            first.wait_for_end()
+            first.start()
+            support.wait_until(lambda: first.output.count("is ready") == 2, "it is ready again")
 
     def test_the_loader_of_a_manager_is_told_too(self):
         name = "/loading_test_in_manager"

@@ -18,7 +18,7 @@ from external_command import any_message
 from external_command.msg import ActionCommand, CommandLogEntry, CommandStatus, LaneFollowCommand, Pose
 from external_command.srv import Action, LaneFollow
 
-MANAGER = "/apollo/external_command_manager"
+NODE = "/apollo/external_command"
 LOG = "/apollo/external_command/log"
 STATUS = "/apollo/external_command/status"
 LANE_FOLLOW = "/apollo/external_command/lane_follow"
@@ -40,7 +40,7 @@ class Recorder:
         name = "/recorder_of_" + topic.rpartition("/")[2]
         self._process = subprocess.Popen(
             ["rosrun", "rosbag", "record", "--output-name=" + path, "--limit=%d" % count, topic, "__name:=" + name[1:]])
-        support.wait_until(lambda: topic in connected_topics(MANAGER, name), "rosbag records " + topic)
+        support.wait_until(lambda: topic in connected_topics(NODE, name), "rosbag records " + topic)
 
     def wait(self):
         """Until all are recorded."""

@@ -4,6 +4,7 @@
 import math
 import unittest
 
+import rosgraph
 import rospy
 import rostest
 from geometry_msgs.msg import Point, PoseStamped
@@ -85,6 +86,11 @@ class OldRoutingTest(unittest.TestCase):
     def last_lane(self, command):
         road = command.lane_follow_command.road[-1]
         return next(passage for passage in road.passage if passage.can_exit).segment[-1]
+
+    def test_the_adapter_lives_in_the_process_of_the_component(self):
+        self.assertIsNone(support.pid_of("/apollo/old_routing_adapter"), "it is a node of its own, with a map of its own")
+        subscribers = dict(rosgraph.Master("/test").getSystemState()[1])["/apollo/routing_request"]
+        self.assertEqual(subscribers, ["/apollo/external_command"])
 
     def test_one_way_point_is_the_end(self):
         command = self.planned(waypoint=[by_pose(EAST_END)])

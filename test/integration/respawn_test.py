@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The manager dies and comes back; the gateway with it."""
+"""What dies comes back, and what helps it to start is not needed afterwards."""
 import os
 import signal
+import time
 import unittest
 
 import rospy
@@ -10,14 +11,15 @@ import rostest
 
 import support
 from external_command.msg import CommandStatus, LaneFollowCommand, PlanningCommand, Pose
-from external_command.srv import LaneFollow
+from external_command.srv import GetCommandStatus, LaneFollow
 
-MANAGER = "/apollo/external_command_manager"
+BACK = 3.0  # from the death of the process to its answers, at most [s]
+BOND = 8.0  # a nodelet's bond breaks after less [s]
 
 
-def answers():
+def answers(ns):
     try:
-        call = rospy.ServiceProxy("/apollo/external_command/lane_follow", LaneFollow)
+        call = rospy.ServiceProxy(ns + "/external_command/lane_follow", LaneFollow)
         command = LaneFollowCommand(is_start_pose_set=True, way_point=[Pose(x=100.0, y=195.0)], dry_run=True)
         command.end_pose = Pose(x=300.0, y=195.0)
         return call(command).status.status == CommandStatus.FINISHED
@@ -25,16 +27,56 @@ def answers():
         return False
 
 
+def status_answers(ns):
+    try:
+        rospy.ServiceProxy(ns + "/external_command/command_status", GetCommandStatus)(command_id=1)
+        return True
+    except (rospy.ServiceException, OSError):
+        return False
+
+
 class RespawnTest(unittest.TestCase):
-    def test_comes_back_after_the_manager_was_killed_and_replays_nothing(self):
-        support.wait_until(answers, "the first answer")
-        pid = support.pid_of(MANAGER)
+    @staticmethod
+    def killed(node):
+        """Kills the process of `node`; its id."""
+        pid = support.pid_of(node)
         os.kill(pid, signal.SIGKILL)
-        support.wait_until(lambda: support.pid_of(MANAGER) not in (None, pid), "the manager is respawned", 60.0)
-        support.wait_until(answers, "an answer of the new one", 60.0)
+        return pid
+
+    def test_is_back_in_time_after_it_was_killed_and_replays_nothing(self):
+        support.wait_until(lambda: answers("/apollo"), "the first answer")
+        pid = self.killed("/apollo/external_command")
+        begin = time.monotonic()
+        support.wait_until(lambda: answers("/apollo"), "an answer of the new one", BACK)
+        print("back after %.2f s" % (time.monotonic() - begin))
+        self.assertNotEqual(support.pid_of("/apollo/external_command"), pid)
         sent = support.Collector("/apollo/planning/command", PlanningCommand)
-        self.assertTrue(answers())
+        self.assertTrue(answers("/apollo"))
         self.assertEqual(sent.messages, [])
+
+    def test_is_loaded_again_after_its_manager_was_killed(self):
+        support.wait_until(lambda: status_answers("/managed"), "the first answer")
+        self.killed("/managed/external_command_manager")
+        begin = time.monotonic()
+        support.wait_until(lambda: status_answers("/managed"), "an answer of the new one", BACK)
+        print("back in its manager after %.2f s" % (time.monotonic() - begin))
+
+    def test_goes_on_while_what_loaded_it_is_suspended_or_dead(self):
+        support.wait_until(lambda: status_answers("/managed"), "the first answer")
+        helper = support.pid_of("/managed/external_command")
+        manager = support.pid_of("/managed/external_command_manager")
+        os.kill(helper, signal.SIGSTOP)
+        self.assert_answers_for(BOND)
+        os.kill(helper, signal.SIGKILL)
+        support.wait_until(lambda: support.pid_of("/managed/external_command") not in (None, helper), "the helper is back")
+        self.assert_answers_for(1.0)
+        self.assertEqual(support.pid_of("/managed/external_command_manager"), manager)
+
+    def assert_answers_for(self, duration):
+        end = time.monotonic() + duration
+        while time.monotonic() < end:
+            self.assertTrue(status_answers("/managed"))
+            time.sleep(0.1)
 
 
 if __name__ == "__main__":

@@ -35,8 +35,8 @@ class TwoVehiclesTest(unittest.TestCase):
 
     def test_the_status_service_answers_for_a_processor_loaded_on_its_own(self):
         status = drive("second")
-        self.assertEqual(support.command_status(status.command_id, status_service("second")).status,
-                         CommandStatus.RUNNING)
+        known = support.command_status(status.command_id, status_service("second"))
+        self.assertIn(known.status, (CommandStatus.RUNNING, CommandStatus.FINISHED), support.describe(known))
 
     def test_neither_knows_the_commands_of_the_other(self):
         status = drive("second")

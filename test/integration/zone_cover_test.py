@@ -19,7 +19,7 @@ from external_command.msg import ActionCommand, CommandStatus, FreeSpaceCommand,
 from external_command.srv import Action, FreeSpace, ZoneCover
 
 NS = "/courtyard/external_command/"
-MANAGER = "/courtyard/external_command_manager"
+NODE = "/courtyard/external_command"
 STATUS = NS + "command_status"
 PROGRESS_FOLDER = "/tmp/external_command_zone_cover_test"
 YARD = [(-15, -12), (15, -12), (15, 12), (-15, 12)]
@@ -118,9 +118,9 @@ class ZoneCoverTest(unittest.TestCase):
         return int(re.match(r"swath \d+ of (\d+)", half.message).group(1)), swath_of(last) - 1
 
     def kill_the_gateway(self):
-        killed = support.pid_of(MANAGER)
+        killed = support.pid_of(NODE)
         os.kill(killed, signal.SIGKILL)
-        support.wait_until(lambda: support.pid_of(MANAGER) not in (None, killed), "the gateway is started again", 60.0)
+        support.wait_until(lambda: support.pid_of(NODE) not in (None, killed), "the gateway is started again", 60.0)
         self.wait_until_ready()
 
     def test_sweeps_to_the_end_and_then_has_nothing_to_resume(self):

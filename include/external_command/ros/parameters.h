@@ -45,6 +45,7 @@ class ParameterReader {
   bool has(const std::string& key) const { return nh_.hasParam(key); }
   ParameterReader within(const std::string& name) const { return ParameterReader(ros::NodeHandle(nh_, name)); }
   std::string nameOf(const std::string& key) const { return nh_.resolveName(key); }
+  const std::string& name() const { return nh_.getNamespace(); }
 
   /// The raw value; false where there is none.
   /// @throws InternalError  the ROS master does not answer.
@@ -65,7 +66,10 @@ class ParameterReader {
   ros::NodeHandle nh_;
 };
 
-/// Readers of the plain structs; each validates what it read.
+/// The keys of a vehicle's size that are not set. They have no default: who plans for another vehicle hits something.
+std::vector<std::string> missingVehicleSizes(const ParameterReader& reader);
+
+/// Readers of the plain structs; each validates what it read. That of the vehicle wants every size to be set.
 VehicleParams readVehicleParams(const ParameterReader& reader);
 RouterParams readRouterParams(const ParameterReader& reader);
 LaneWayParams readLaneWayParams(const ParameterReader& reader);

@@ -12,6 +12,7 @@
 #include "external_command/ros/command_registry.h"
 #include "external_command/ros/dedicated_lane.h"
 #include "external_command/ros/display.h"
+#include "external_command/ros/master_watch.h"
 #include "external_command/ros/parameters.h"
 #include "external_command/ros/vehicle_pose.h"
 
@@ -63,6 +64,8 @@ class ProcessContext {
   CommandRegistry& registry() { return registry_; }
   Display& display() { return display_; }
 
+  MasterWatch& masterWatch() { return *master_watch_; }
+
   /// For short callbacks that need nothing but this context.
   DedicatedLane& housekeeping() { return housekeeping_; }
 
@@ -89,6 +92,7 @@ class ProcessContext {
   static constexpr int kQueueSize = 100;
 
   const ContextParams params_;
+  const std::shared_ptr<MasterWatch> master_watch_ = MasterWatch::ofProcess();
   ros::NodeHandle nh_;
   std::mutex publishers_mutex_;
   std::map<std::string, Shared> publishers_;

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""ROS masters and launches that a test starts and ends itself, their output kept."""
+import os
+import re
+import signal
+import subprocess
+import tempfile
+
+import rosgraph
+
+import support
+
+
+class Process:
+    """A program that ends with the `with` block, and all that it started, as far as it ends its children."""
+
+    def __init__(self, *command, **environment):
+        self._command = command
+        self._environment = dict(os.environ, **environment)
+        self._log = tempfile.NamedTemporaryFile(prefix="process_", suffix=".log")
+        self._process = None
+
+    def __enter__(self):
+        self._process = subprocess.Popen(self._command, env=self._environment, stdin=subprocess.DEVNULL,
+                                         stdout=self._log, stderr=subprocess.STDOUT, start_new_session=True)
+        return self
+
+    def __exit__(self, *_):
+        try:
+            self.end()
+        finally:
+            self._log.close()
+
+    def end(self):
+        """SIGINT, as Ctrl-C does; SIGKILL where that does not help."""
+        if self._process.poll() is None:
+            self._process.send_signal(signal.SIGINT)
+        try:
+            self._process.wait(support.DEADLINE)
+        finally:
+            self._process.kill()
+            self._process.wait()
+
+    @property
+    def pid(self):
+        return self._process.pid
+
+    @property
+    def output(self):
+        """Without the colours of a terminal."""
+        with open(self._log.name, encoding="utf-8", errors="replace") as log:
+            return re.sub(r"\x1b\[[0-9;]*m", "", log.read())
+
+
+class Master(Process):
+    """A ROS master of its own at `uri`, which becomes that of this process too."""
+
+    def __init__(self, uri):
+        os.environ["ROS_MASTER_URI"] = uri
+        super().__init__("roscore", "-p", uri.rstrip("/").rpartition(":")[2])
+
+    def __enter__(self):
+        super().__enter__()
+        support.wait_until(self._is_up, "the ROS master is up")
+        return self
+
+    @staticmethod
+    def _is_up():
+        """With the run's id, which roslaunch looks for."""
+        try:
+            return rosgraph.Master("/test").hasParam("/run_id")
+        except OSError:
+            return False
+
+
+class Launch(Process):
+    """roslaunch of a file of this package."""
+
+    def __init__(self, file, **arguments):
+        super().__init__("roslaunch", "external_command", file, *("%s:=%s" % item for item in arguments.items()))
