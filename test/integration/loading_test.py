@@ -9,6 +9,7 @@ import textwrap
 import time
 import unittest
 
+import rosgraph
 import rospkg
 import rospy
 import rostest
@@ -18,6 +19,7 @@ import support
 from component import LANE_FOLLOW, Component
 from external_command.msg import CommandStatus
 from external_command.srv import GetCommandStatus
+from processes import Process
 
 NAMESPACE = "/loading_test"
 ACTION = "external_command/ActionCommandProcessor"
@@ -240,6 +242,14 @@ class LoadingTest(unittest.TestCase):
             first.wait_for_end()
             first.start()
             support.wait_until(lambda: first.output.count("is ready") == 2, "it is ready again")
+
+    def test_takes_the_name_of_one_whose_port_is_another_nodes_by_now(self):
+        with Process("rostopic", "pub", "/chatter", "std_msgs/Empty", "__name:=heir"):
+            support.wait_until(lambda: support.pid_of("/heir"), "the other node is up")
+            dead = rosgraph.Master(NAMESPACE + "/external_command")
+            heir = rosgraph.Master("/loading_test").lookupNode("/heir")
+            dead.registerPublisher(NAMESPACE + "/external_command/status", "external_command/CommandStatus", heir)
+            self.assert_starts(component([ACTION]))
 
     def test_the_loader_of_a_manager_is_told_too(self):
         name = "/loading_test_in_manager"
