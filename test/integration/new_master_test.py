@@ -15,7 +15,7 @@ import rostest
 import support
 from external_command.msg import CommandLogEntry, CommandStatus, LaneFollowCommand, PlanningCommand, Pose
 from external_command.srv import LaneFollow
-from processes import Launch, Master, Process
+from processes import Launch, Master, Node
 
 NODE = "/apollo/external_command"
 SERVICES = ["lane_follow", "valet_parking", "action", "free_space", "path_follow", "speed", "chassis", "precise_parking",
@@ -72,7 +72,8 @@ class NewMasterTest(unittest.TestCase):
         rospy.init_node("new_master_test", disable_signals=True)
         log = support.Collector("/apollo/external_command/log", CommandLogEntry)
         status = support.Collector("/apollo/external_command/status", CommandStatus)
-        with Process("rosrun", "external_command", "simulated_vehicle", "__ns:=/apollo", "_x:=90.0", "_y:=195.0"):
+        with Node("simulated_vehicle", "__ns:=/apollo", "_x:=90.0", "_y:=195.0",
+                  "_real_time_factor:=10.0"):
             call = support.service("/apollo/external_command/lane_follow", LaneFollow)
 
             def drives():

@@ -7,6 +7,7 @@ import subprocess
 import tempfile
 
 import rosgraph
+import roslib.packages
 
 import support
 
@@ -50,6 +51,13 @@ class Process:
         """Without the colours of a terminal."""
         with open(self._log.name, encoding="utf-8", errors="replace") as log:
             return re.sub(r"\x1b\[[0-9;]*m", "", log.read())
+
+
+class Node(Process):
+    """An executable of this package; rosrun may find it in an install space too."""
+
+    def __init__(self, executable, *arguments):
+        super().__init__(roslib.packages.find_node("external_command", executable)[0], *arguments)
 
 
 class Master(Process):

@@ -12,6 +12,7 @@ import rostest
 import support
 from external_command.msg import CommandStatus, LaneFollowCommand, PlanningCommand, Pose
 from external_command.srv import GetCommandStatus, LaneFollow
+from processes import Node
 
 BACK = 3.0  # from the death of the process to its answers, at most [s]
 BOND = 8.0  # a nodelet's bond breaks after less [s]
@@ -71,6 +72,17 @@ class RespawnTest(unittest.TestCase):
         support.wait_until(lambda: support.pid_of("/managed/external_command") not in (None, helper), "the helper is back")
         self.assert_answers_for(1.0)
         self.assertEqual(support.pid_of("/managed/external_command_manager"), manager)
+
+    def test_a_second_manager_or_loader_of_the_same_name_gives_up(self):
+        support.wait_until(lambda: status_answers("/managed"), "the first answer")
+        had = [support.pid_of("/managed/" + name) for name in ("external_command_manager", "external_command")]
+        component = "external_command/ExternalCommandProcessComponent"
+        for name, *command in (("external_command_manager", "external_command_process", "--manager"),
+                               ("external_command", "keep_nodelet_loaded", component, "external_command_manager")):
+            with Node(*command, "__ns:=/managed", "__name:=" + name) as second:
+                support.wait_until(lambda: "there is a node /managed/%s already" % name in second.output, "it gives up")
+        self.assertEqual([support.pid_of("/managed/" + name) for name in ("external_command_manager", "external_command")], had)
+        self.assertTrue(status_answers("/managed"))
 
     def assert_answers_for(self, duration):
         end = time.monotonic() + duration
