@@ -28,7 +28,7 @@ int pidOf(const XmlRpcPeer& master) {
   return pid.value.getType() == XmlRpcValue::TypeInt ? static_cast<const int&>(pid.value) : 0;
 }
 
-std::size_t countOf(const XmlRpcValue& value) {
+std::size_t countOf(XmlRpcValue value) {
   if (value.getType() != XmlRpcValue::TypeStruct) return 1;
   std::size_t count = 0;
   for (const auto& item : value) count += countOf(item.second);
@@ -36,7 +36,7 @@ std::size_t countOf(const XmlRpcValue& value) {
 }
 
 /// Sets what of `value` the master does not have. @return how many parameters. @throws std::runtime_error
-std::size_t setMissing(const XmlRpcPeer& master, const std::string& name, const XmlRpcValue& value) {
+std::size_t setMissing(const XmlRpcPeer& master, const std::string& name, XmlRpcValue value) {
   const XmlRpcPeer::Answer has = master.call("hasParam", {name});
   const bool is_there =
       has.isSuccess() && has.value.getType() == XmlRpcValue::TypeBoolean && static_cast<const bool&>(has.value);

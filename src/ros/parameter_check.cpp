@@ -52,7 +52,7 @@ std::string nearestKey(const std::string& key, const std::set<std::string>& know
                        [&](const std::string& other) { return lastPart(other) == nearest; });
 }
 
-void collect(const std::string& key, const XmlRpcValue& value, const std::set<std::string>& known,
+void collect(const std::string& key, XmlRpcValue value, const std::set<std::string>& known,
              std::vector<StrayKey>* stray) {
   const bool is_struct = value.getType() == XmlRpcValue::TypeStruct;
   if (is_struct && (key.empty() || isKnownBelow(key, known))) {
