@@ -19,7 +19,7 @@ import support
 from component import LANE_FOLLOW, Component
 from external_command.msg import CommandStatus
 from external_command.srv import GetCommandStatus
-from processes import Process
+from processes import Launch, Process
 
 NAMESPACE = "/loading_test"
 ACTION = "external_command/ActionCommandProcessor"
@@ -161,6 +161,16 @@ class LoadingTest(unittest.TestCase):
                                   "not set")
         self.assert_stops(component([LANE_FOLLOW], vehicle={"wheelbase": None, "weelbase": 2.8}), "vehicle/wheelbase",
                           "weelbase is set")
+
+    def test_a_size_that_an_earlier_launch_has_left_does_not_count(self):
+        rospy.set_param(NAMESPACE + "/external_command/vehicle/wheelbase", 9.9)
+        with tempfile.NamedTemporaryFile("w", suffix=".yaml") as vehicle:
+            vehicle.write("{width: 2.0, front_overhang: 1.0, rear_overhang: 1.0, min_turning_radius: 5.0}")
+            vehicle.flush()
+            with Launch("external_command_process.launch", ns=NAMESPACE[1:], vehicle=vehicle.name, respawn="false") as launch:
+                support.wait_until(lambda: "parameters not set" in launch.output, "it stops")
+                self.assertIn(NAMESPACE + "/external_command/vehicle/wheelbase", launch.output)
+        rospy.delete_param(NAMESPACE)
 
     def test_a_process_without_parameters_says_where_they_come_from(self):
         self.assert_stops(Component(NAMESPACE, {}), NAMESPACE + "/external_command", "processors", "vehicle",
