@@ -41,6 +41,7 @@ ActionCommandProcessor::ActionCommandProcessor() : ServiceCommandProcessor<Actio
 
 ActionCommandProcessor::~ActionCommandProcessor() {
   stopServing();
+  sent_motions_.disconnect();
   watch_lane_.stop();
 }
 
@@ -66,6 +67,7 @@ void ActionCommandProcessor::readParameters() {
   parameters().readWithin("moving_speed", 0.0, 100.0, &params.moving_speed);
   const ParameterReader scenarios = parameters().within("scenarios");
   for (auto& [action, names] : params.scenarios) scenarios.read(parameterNameOf(action), &names);
+  params.clock_skew = context().params().reports.clock_skew;
   pending_.emplace(params);
 }
 
@@ -82,14 +84,19 @@ void ActionCommandProcessor::subscribe() {
     record(pending_->onScenario(state.scenario));
   };
   const boost::function<void(const CommandStatus&)> on_status = [this](const CommandStatus& status) {
+    const auto motion = context().gate().motion();
     const std::lock_guard<std::mutex> lock(mutex_);
-    record(pending_->onPlannerStatus(status, context().gate().lastSent()));
+    record(pending_->onPlannerStatus(status, motion.get()));
   };
   subscribers_.push_back(nh.subscribe<Chassis>(chassis_topic, 10, on_chassis));
   subscribers_.push_back(nh.subscribe<PlanningState>(state_topic, 10, on_state));
   for (const std::string& topic : topicNames("input_command_status_name", "planning/command_status")) {
     subscribers_.push_back(nh.subscribe<CommandStatus>(topic, 100, on_status));
   }
+  sent_motions_ = context().sentMotions().connect([this](const SentMotion& motion) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    record(pending_->onMotionSent(motion.command));
+  });
   timer_ = nh.createSteadyTimer(ros::WallDuration(kTick), [this](const ros::SteadyTimerEvent&) { onTick(); });
 }
 
@@ -98,67 +105,73 @@ void ActionCommandProcessor::check(const ActionCommand& command) const {
   throw InvalidRequest(text("command is ", static_cast<int>(command.command), "; the actions are ", knownActions()));
 }
 
-CommandStatus ActionCommandProcessor::execute(const ActionCommand& command, const CommandGate::Arrival& /*arrival*/,
+bool ActionCommandProcessor::actsAlways(const ActionCommand& command) const {
+  return command.command == ActionCommand::STOP || command.command == ActionCommand::CLEAR_PLANNING ||
+         command.command == ActionCommand::SWITCH_TO_MANUAL;
+}
+
+CommandStatus ActionCommandProcessor::execute(const ActionCommand& command, const AdmittedCommand& admitted,
                                               Response* /*response*/) {
   switch (command.command) {
     case ActionCommand::CLEAR_PLANNING:
-      return clearPlanning(command.command_id);
+      return clearPlanning(admitted);
     case ActionCommand::SWITCH_TO_MANUAL:
-      return switchMode(command.command_id, ModeSwitch::Target::kManual);
+      return switchMode(admitted, ModeSwitch::Target::kManual);
     case ActionCommand::SWITCH_TO_AUTO:
-      return switchMode(command.command_id, ModeSwitch::Target::kAuto);
+      return switchMode(admitted, ModeSwitch::Target::kAuto);
     default:
-      return sendAndWatch(command);
+      return sendAndWatch(command, admitted);
   }
 }
 
-CommandStatus ActionCommandProcessor::sendAndWatch(const ActionCommand& command) {
+CommandStatus ActionCommandProcessor::sendAndWatch(const ActionCommand& command, const AdmittedCommand& admitted) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  record(pending_->add(command.command_id, command.command, now()));
+  record(pending_->add(admitted, command.command, now()));
   if (command.command == ActionCommand::STOP) {
-    context().gate().stop([this] { sendToPlanning(PlanningPad::STOP); });
+    context().gate().stop(true, [this] { sendToPlanning(PlanningPad::STOP); });
   } else if (command.command == ActionCommand::VIN_REQ) {
     sendToControl(ControlPad::VIN_REQ);
   } else {
     sendToPlanning(kPlanningPads.at(command.command));
   }
-  CommandStatus status =
-      makeStatus(command.command_id, CommandStatus::RUNNING, ErrorCode::kOk, nameOfAction(command.command) + " sent");
-  context().registry().update(status);
-  return status;
+  if (command.command == ActionCommand::START) context().showMotionAgain();
+  return makeStatus(admitted.id, CommandStatus::RUNNING, ErrorCode::kOk, nameOfAction(command.command) + " sent");
 }
 
-CommandStatus ActionCommandProcessor::clearPlanning(std::int64_t command_id) {
-  const auto running = context().gate().stop([this] { sendToPlanning(PlanningPad::CLEAR_PLANNING); });
-  if (running) {
-    context().registry().update(makeStatus(*running, CommandStatus::ERROR, ErrorCode::kCancelled,
-                                           text("cancelled by CLEAR_PLANNING, command ", command_id)));
+CommandStatus ActionCommandProcessor::clearPlanning(const AdmittedCommand& admitted) {
+  const auto cleared = context().gate().stop(true, [this] { sendToPlanning(PlanningPad::CLEAR_PLANNING); });
+  if (cleared) {
+    context().registry().update(
+        {cleared->command.serial, makeStatus(cleared->command.id, CommandStatus::ERROR, ErrorCode::kCancelled,
+                                             text("cancelled by CLEAR_PLANNING, command ", admitted.id))});
   }
-  return makeStatus(command_id, CommandStatus::FINISHED, ErrorCode::kOk, "CLEAR_PLANNING sent");
+  return makeStatus(admitted.id, CommandStatus::FINISHED, ErrorCode::kOk, "CLEAR_PLANNING sent");
 }
 
-CommandStatus ActionCommandProcessor::switchMode(std::int64_t command_id, ModeSwitch::Target target) {
+CommandStatus ActionCommandProcessor::switchMode(const AdmittedCommand& admitted, ModeSwitch::Target target) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  requireChassis();
+  const bool to_manual = target == ModeSwitch::Target::kManual;
+  if (!to_manual) requireChassis();
   if (switch_) {
-    context().registry().update(makeStatus(switch_->command_id, CommandStatus::ERROR, ErrorCode::kSuperseded,
-                                           text("superseded by mode switch ", command_id)));
+    context().registry().update(
+        {switch_->command.serial, makeStatus(switch_->command.id, CommandStatus::ERROR, ErrorCode::kSuperseded,
+                                             text("superseded by mode switch ", admitted.id))});
   }
-  switch_.emplace(RunningSwitch{command_id, ModeSwitch(target, mode_switch_params_, mode_is_settled_)});
+  switch_.emplace(RunningSwitch{admitted, ModeSwitch(target, mode_switch_params_, mode_is_settled_, now())});
+  if (!to_manual) return advanceSwitch().status;
   CommandStatus status;
-  if (target == ModeSwitch::Target::kManual) {
-    context().gate().stop([&] { status = advanceSwitch(); });
-  } else {
-    status = advanceSwitch();
-  }
-  context().registry().update(status);
+  context().gate().stop(false, [&] { status = advanceSwitch().status; });
   return status;
 }
 
-CommandStatus ActionCommandProcessor::advanceSwitch() {
-  const std::int64_t id = switch_->command_id;
+StatusChange ActionCommandProcessor::advanceSwitch() {
+  const AdmittedCommand command = switch_->command;
   ModeSwitch& decision = switch_->decision;
-  switch (decision.next(chassis_.driving_mode, now())) {
+  const std::optional<ReportedMode> mode = freshMode();
+  const auto change = [&](std::uint8_t status, ErrorCode code, const std::string& message) {
+    return StatusChange{command.serial, makeStatus(command.id, status, code, message)};
+  };
+  switch (decision.next(mode, now())) {
     case ModeSwitch::Step::kSendManual:
       sendToControl(ControlPad::RESET);
       mode_is_settled_ = false;
@@ -170,34 +183,45 @@ CommandStatus ActionCommandProcessor::advanceSwitch() {
     case ModeSwitch::Step::kDone:
       switch_.reset();
       mode_is_settled_ = true;
-      return makeStatus(id, CommandStatus::FINISHED, ErrorCode::kOk,
-                        text("the chassis reports ", nameOfMode(chassis_.driving_mode)));
+      return change(CommandStatus::FINISHED, ErrorCode::kOk, "the chassis reports " + nameOfMode(mode->mode));
     case ModeSwitch::Step::kFailed: {
-      const std::string reason = decision.describe(chassis_.driving_mode);
+      const std::string reason = decision.describe(mode);
       switch_.reset();
-      return makeStatus(id, CommandStatus::ERROR, ErrorCode::kRefusedByVehicle, reason);
+      return change(CommandStatus::ERROR, ErrorCode::kRefusedByVehicle, reason);
     }
     case ModeSwitch::Step::kWait:
       break;
   }
-  return makeStatus(id, CommandStatus::RUNNING, ErrorCode::kOk, decision.describe(chassis_.driving_mode));
+  return change(CommandStatus::RUNNING, ErrorCode::kOk, decision.describe(mode));
+}
+
+std::optional<ReportedMode> ActionCommandProcessor::freshMode() const {
+  if (!reported_mode_ || now() - reported_mode_->time > max_chassis_age_) return std::nullopt;
+  return reported_mode_;
 }
 
 void ActionCommandProcessor::requireChassis() const {
-  if (chassis_time_.isZero()) {
-    throw NotReady("nothing was heard from the chassis; is it running (~chassis_name)?");
+  if (freshMode()) return;
+  if (!odd_stamp_.empty()) throw NotReady(odd_stamp_);
+  if (!reported_mode_) {
+    throw NotReady(text("the chassis is not heard of: no message came on ", subscribers_.front().getTopic(),
+                        " (~chassis_name); is it running?"));
   }
-  const double age = (ros::SteadyTime::now() - chassis_time_).toSec();
-  if (age > max_chassis_age_) {
-    throw NotReady(text("the last message of the chassis is ", age, " s old; the limit is ", max_chassis_age_,
-                        " s (~max_chassis_age): is it still running?"));
-  }
+  throw NotReady(text("the chassis is not heard of any more: its last report is ", now() - reported_mode_->time,
+                      " s old; the limit is ", max_chassis_age_, " s (~max_chassis_age)"));
 }
 
 void ActionCommandProcessor::onChassis(const Chassis& chassis) {
+  const double age = chassis.header.stamp.isZero() ? 0.0 : ros::Time::now().toSec() - chassis.header.stamp.toSec();
+  const double allowance = context().params().max_future_stamp;
   const std::lock_guard<std::mutex> lock(mutex_);
-  chassis_ = chassis;
-  chassis_time_ = ros::SteadyTime::now();
+  odd_stamp_.clear();
+  if (age < -allowance) {
+    odd_stamp_ = text("the report of the chassis on ", subscribers_.front().getTopic(), " is stamped ", -age,
+                      " s in the future; the limit is ", allowance, " s (~max_future_stamp): do the clocks agree?");
+    return;
+  }
+  reported_mode_ = ReportedMode{chassis.driving_mode, now() - std::max(0.0, age)};
   record(pending_->onChassis(chassis));
   if (switch_) context().registry().update(advanceSwitch());
 }
@@ -209,7 +233,7 @@ void ActionCommandProcessor::onTick() {
 }
 
 void ActionCommandProcessor::record(const PendingActions::Changes& changes) {
-  for (const CommandStatus& status : changes) context().registry().update(status);
+  for (const StatusChange& change : changes) context().registry().update(change);
 }
 
 void ActionCommandProcessor::sendToPlanning(std::uint8_t pad) const {

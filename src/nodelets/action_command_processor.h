@@ -28,7 +28,7 @@ class ActionCommandProcessor : public ServiceCommandProcessor<Action> {
 
  private:
   struct RunningSwitch {
-    std::int64_t command_id = 0;
+    AdmittedCommand command;
     ModeSwitch decision;
   };
 
@@ -36,15 +36,20 @@ class ActionCommandProcessor : public ServiceCommandProcessor<Action> {
   void readParameters();
   void subscribe();
 
+  Threads threads() const override { return {1, LanePriority::kUrgent}; }
+  bool actsAlways(const ActionCommand& command) const override;
   void check(const ActionCommand& command) const override;
-  CommandStatus execute(const ActionCommand& command, const CommandGate::Arrival& arrival, Response* response) override;
+  CommandStatus execute(const ActionCommand& command, const AdmittedCommand& admitted, Response* response) override;
 
-  CommandStatus sendAndWatch(const ActionCommand& command);
-  CommandStatus clearPlanning(std::int64_t command_id);
-  CommandStatus switchMode(std::int64_t command_id, ModeSwitch::Target target);
+  CommandStatus sendAndWatch(const ActionCommand& command, const AdmittedCommand& admitted);
+  CommandStatus clearPlanning(const AdmittedCommand& admitted);
+  CommandStatus switchMode(const AdmittedCommand& admitted, ModeSwitch::Target target);
 
   /// Carries the running mode switch one step on; its status.
-  CommandStatus advanceSwitch();
+  StatusChange advanceSwitch();
+
+  /// The last report of the chassis that is not too old.
+  std::optional<ReportedMode> freshMode() const;
 
   /// @throws NotReady  the chassis was never heard of, or too long ago.
   void requireChassis() const;
@@ -65,12 +70,13 @@ class ActionCommandProcessor : public ServiceCommandProcessor<Action> {
   std::optional<PendingActions> pending_;
   std::optional<RunningSwitch> switch_;
   bool mode_is_settled_ = true;  ///< no mode is asked for that the chassis may still go into
-  Chassis chassis_;
-  ros::SteadyTime chassis_time_;  ///< when that came in; zero: never
+  std::optional<ReportedMode> reported_mode_;
+  std::string odd_stamp_;  ///< why the newest report of the chassis does not count; empty where it does
 
-  DedicatedLane watch_lane_;  // before its users: they leave its queue first
+  DedicatedLane watch_lane_{LaneOptions{"the lane of the chassis"}};  // before its users: they leave its queue first
   std::vector<ros::Subscriber> subscribers_;
   ros::SteadyTimer timer_;
+  boost::signals2::connection sent_motions_;
 };
 
 }  // namespace external_command

@@ -88,23 +88,21 @@ void ChassisCommandProcessor::check(const ChassisCommand& command) const {
   checkAny(command.custom_operation, "custom_operation");
 }
 
-CommandStatus ChassisCommandProcessor::execute(const ChassisCommand& command, const CommandGate::Arrival& /*arrival*/,
+CommandStatus ChassisCommandProcessor::execute(const ChassisCommand& command, const AdmittedCommand& admitted,
                                                Response* /*response*/) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const bool changes_signals = commandsAny(command.basic_signal);
-  if (changes_signals) record(pending_->add(command.command_id, command.basic_signal, now()));
+  if (changes_signals) record(pending_->add(admitted, command.basic_signal, now()));
   for (const ros::Publisher& publisher : publishers_) publisher.publish(command);
   if (!changes_signals) {
     return makeStatus(command.command_id, CommandStatus::FINISHED, ErrorCode::kOk,
                       "sent; it changes no signal that could be waited for");
   }
-  CommandStatus status = makeStatus(command.command_id, CommandStatus::RUNNING, ErrorCode::kOk, "sent");
-  context().registry().update(status);
-  return status;
+  return makeStatus(command.command_id, CommandStatus::RUNNING, ErrorCode::kOk, "sent");
 }
 
 void ChassisCommandProcessor::record(const PendingSignals::Changes& changes) {
-  for (const CommandStatus& status : changes) context().registry().update(status);
+  for (const StatusChange& change : changes) context().registry().update(change);
 }
 
 }  // namespace external_command

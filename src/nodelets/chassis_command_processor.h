@@ -24,8 +24,7 @@ class ChassisCommandProcessor : public ServiceCommandProcessor<ChassisControl> {
   void start() override;
   void subscribe();
   void check(const ChassisCommand& command) const override;
-  CommandStatus execute(const ChassisCommand& command, const CommandGate::Arrival& arrival,
-                        Response* response) override;
+  CommandStatus execute(const ChassisCommand& command, const AdmittedCommand& admitted, Response* response) override;
   void record(const PendingSignals::Changes& changes);
 
   double max_request_age_ = 2.0;  ///< [s]
@@ -34,7 +33,8 @@ class ChassisCommandProcessor : public ServiceCommandProcessor<ChassisControl> {
   std::mutex mutex_;
   std::optional<PendingSignals> pending_;  ///< guarded by the mutex
 
-  DedicatedLane watch_lane_;  // before its users: they leave its queue first
+  DedicatedLane watch_lane_{
+      LaneOptions{"the lane of the chassis' signals"}};  // before its users: they leave its queue first
   ros::Subscriber chassis_subscriber_;
   ros::SteadyTimer timer_;
 };

@@ -24,6 +24,10 @@ FreeSpaceCommandProcessor::FreeSpaceCommandProcessor()
 
 FreeSpaceCommandProcessor::~FreeSpaceCommandProcessor() { stopServing(); }
 
+double FreeSpaceCommandProcessor::planningTime(const FreeSpaceCommand& /*command*/, const Pose2d& /*vehicle*/) const {
+  return planner_->params().time_budget;
+}
+
 void FreeSpaceCommandProcessor::start() {
   MotionCommandProcessor<FreeSpace>::start();
   planner_.emplace(getNodeHandle(), parameters(), context());
@@ -44,7 +48,7 @@ void FreeSpaceCommandProcessor::check(const FreeSpaceCommand& command) const {
 void FreeSpaceCommandProcessor::processSpecialCommand(const FreeSpaceCommand& command, const CancelToken& cancel,
                                                       MotionPlan* plan) {
   const Pose2d frame = context().vehiclePose().ofFrame(command.header.frame_id);
-  const Pose2d start = context().vehiclePose().get();
+  const Pose2d start = plan->start.pose();
   const Pose2d goal = toMapPose(command.parking_spot_pose, frame);
   goal_limits_.check("parking_spot_pose is at", "goal", goal.position(), start.position(), &plan->report.warnings);
   const Region region = planner_->regionOf(partsOf(command, frame));

@@ -18,6 +18,7 @@ class FreeSpaceCommandProcessor : public MotionCommandProcessor<FreeSpace> {
  private:
   void start() override;
   void check(const FreeSpaceCommand& command) const override;
+  double planningTime(const FreeSpaceCommand& command, const Pose2d& vehicle) const override;
   void processSpecialCommand(const FreeSpaceCommand& command, const CancelToken& cancel, MotionPlan* plan) override;
 
   std::optional<ManoeuvrePlanner> planner_;

@@ -22,9 +22,11 @@ void LaneFollowCommandProcessor::check(const LaneFollowCommand& command) const {
   requireNotNegative(command.target_speed, "target_speed");
 }
 
-std::optional<RoutingTask> LaneFollowCommandProcessor::convert(const LaneFollowCommand& command) {
+std::optional<RoutingTask> LaneFollowCommandProcessor::convert(const LaneFollowCommand& command,
+                                                               const PlanStart& start) {
   const HdMap& map = context().requireRouter().map();
-  RoutingTask task = beginRoutingTask(context(), command.header.frame_id, command.is_start_pose_set, command.way_point);
+  RoutingTask task =
+      beginRoutingTask(context(), start, command.header.frame_id, command.is_start_pose_set, command.way_point);
   setGoal(context(), command.header.frame_id, command.end_pose, "end_pose", &task);
   addBlackList(map, command.blacklisted_lane, command.blacklisted_road, &task);
   return task;
@@ -33,7 +35,7 @@ std::optional<RoutingTask> LaneFollowCommandProcessor::convert(const LaneFollowC
 void LaneFollowCommandProcessor::processSpecialCommand(const LaneFollowCommand& command, const CancelToken& cancel,
                                                        MotionPlan* plan) {
   if (command.is_start_pose_set) return;
-  leaveParkingPlace(context(), context().vehiclePose().get(), *planner_, cancel, plan);
+  leaveParkingPlace(context(), plan->start.pose(), *planner_, cancel, plan);
 }
 
 }  // namespace external_command

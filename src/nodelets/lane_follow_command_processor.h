@@ -17,7 +17,7 @@ class LaneFollowCommandProcessor : public MotionCommandProcessor<LaneFollow> {
  private:
   void start() override;
   void check(const LaneFollowCommand& command) const override;
-  std::optional<RoutingTask> convert(const LaneFollowCommand& command) override;
+  std::optional<RoutingTask> convert(const LaneFollowCommand& command, const PlanStart& start) override;
   void processSpecialCommand(const LaneFollowCommand& command, const CancelToken& cancel, MotionPlan* plan) override;
 
   std::optional<ManoeuvrePlanner> planner_;

@@ -9,6 +9,7 @@
 #include "external_command/RoutingResponse.h"
 #include "external_command/ValetParking.h"
 #include "external_command/core/text.h"
+#include "external_command/ros/request_arrival.h"
 #include "external_command/ros/status.h"
 
 namespace external_command {
@@ -18,8 +19,8 @@ namespace {
 constexpr std::size_t kMaxWaiting = 10;
 
 template <class Service, class Command>
-CommandStatus call(ros::NodeHandle& nh, const std::string& name, const Command& command) {
-  ros::ServiceClient client = nh.serviceClient<Service>(name);
+CommandStatus call(ros::NodeHandle& nh, const std::string& name, const Command& command, const ros::M_string& header) {
+  ros::ServiceClient client = nh.serviceClient<Service>(name, false, header);
   Service service;
   service.request.command = command;
   if (client.call(service)) return service.response.status;
@@ -35,6 +36,7 @@ CommandStatus call(ros::NodeHandle& nh, const std::string& name, const Command& 
 OldRoutingAdapter::~OldRoutingAdapter() {
   request_subscriber_.shutdown();
   goal_subscriber_.shutdown();
+  take_lane_.stop();
   lane_.stop();
 }
 
@@ -50,7 +52,8 @@ void OldRoutingAdapter::start() {
 }
 
 void OldRoutingAdapter::open() {
-  ros::NodeHandle& nh = getNodeHandle();
+  ros::NodeHandle nh(getNodeHandle());
+  nh.setCallbackQueue(take_lane_.queue());
   request_subscriber_ = nh.subscribe(request_topic_, kMaxWaiting, &OldRoutingAdapter::take, this);
   if (!goal_topic_.empty())
     goal_subscriber_ = nh.subscribe(goal_topic_, kMaxWaiting, &OldRoutingAdapter::takeGoal, this);
@@ -72,9 +75,9 @@ void OldRoutingAdapter::take(const RoutingRequest::ConstPtr& request) {
   RoutingRequest::ConstPtr dropped;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    waiting_.push_back(request);
+    waiting_.push_back({request, context().gate().arrive(), ros::WallTime::now()});
     if (waiting_.size() > kMaxWaiting) {
-      dropped = waiting_.front();
+      dropped = waiting_.front().request;
       waiting_.pop_front();
     }
   }
@@ -86,35 +89,37 @@ void OldRoutingAdapter::take(const RoutingRequest::ConstPtr& request) {
 }
 
 void OldRoutingAdapter::carryOutNext() {
-  RoutingRequest::ConstPtr request;
+  Waiting next;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (waiting_.empty()) return;  // it was dropped
-    request = waiting_.front();
+    next = waiting_.front();
     waiting_.pop_front();
   }
   CommandStatus status;
   try {
-    status = carryOut(*request);
+    status = carryOut(next);
   } catch (...) {
     status = statusFrom(std::current_exception(), 0);
   }
-  if (status.status == CommandStatus::ERROR) return refuse(*request, status);
-  ROS_INFO_STREAM(getName() << ": the request became command " << status.command_id << ": " << status.message);
+  if (status.status == CommandStatus::ERROR) return refuse(*next.request, status);
+  logLater(LogLevel::kInfo, text(getName(), ": the request became command ", status.command_id, ": ", status.message));
 }
 
-CommandStatus OldRoutingAdapter::carryOut(const RoutingRequest& request) {
+CommandStatus OldRoutingAdapter::carryOut(const Waiting& waiting) {
+  const RoutingRequest& request = *waiting.request;
+  const ros::M_string header = arrivalHeader(context().gate(), waiting.arrival, waiting.time);
   if (request.dead_end_info.dead_end_routing_type != DeadEndInfo::ROUTING_OTHER) {
-    ROS_WARN_STREAM(getName() << ": dead_end_info has no meaning here and is passed over");
+    logLater(LogLevel::kWarn, getName() + ": dead_end_info has no meaning here and is passed over");
   }
   if (hasParkingInfo(request)) {
-    return call<ValetParking>(getNodeHandle(), valet_parking_service_, converter_->toValetParking(request));
+    return call<ValetParking>(getNodeHandle(), valet_parking_service_, converter_->toValetParking(request), header);
   }
-  return call<LaneFollow>(getNodeHandle(), lane_follow_service_, converter_->toLaneFollow(request));
+  return call<LaneFollow>(getNodeHandle(), lane_follow_service_, converter_->toLaneFollow(request), header);
 }
 
 void OldRoutingAdapter::refuse(const RoutingRequest& request, const CommandStatus& status) {
-  ROS_ERROR_STREAM(getName() << ": request refused: " << status.message);
+  logLater(LogLevel::kError, text(getName(), ": request refused: ", status.message));
   RoutingResponse response;
   response.header.stamp = ros::Time::now();
   response.header.frame_id = context().params().map_frame;

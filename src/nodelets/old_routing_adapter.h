@@ -31,6 +31,13 @@ class OldRoutingAdapter : public CommandProcessor {
 
   void takeGoal(const geometry_msgs::PoseStamped& goal);
 
+  /// A request in line. What stops the vehicle after it came in stops it too.
+  struct Waiting {
+    RoutingRequest::ConstPtr request;
+    ArrivalNumber arrival = 0;
+    ros::WallTime time;  ///< when it came in
+  };
+
   /// Puts the request in line and returns at once; the oldest of too many is refused.
   void take(const RoutingRequest::ConstPtr& request);
 
@@ -38,7 +45,7 @@ class OldRoutingAdapter : public CommandProcessor {
 
   /// Calls the service that the request is for.
   /// @return the service's answer. @throws Error  there is none, or the request makes no command.
-  CommandStatus carryOut(const RoutingRequest& request);
+  CommandStatus carryOut(const Waiting& waiting);
 
   void refuse(const RoutingRequest& request, const CommandStatus& status);
 
@@ -48,10 +55,11 @@ class OldRoutingAdapter : public CommandProcessor {
   std::string valet_parking_service_ = "external_command/valet_parking";
   std::optional<RoutingRequestConverter> converter_;
   ros::Publisher response_publisher_;
-  ros::Subscriber request_subscriber_, goal_subscriber_;
   std::mutex mutex_;
-  std::deque<RoutingRequest::ConstPtr> waiting_;  ///< guarded by mutex_
-  DedicatedLane lane_;                            // last: joins before the rest goes
+  std::deque<Waiting> waiting_;  ///< guarded by mutex_
+  DedicatedLane take_lane_;      // before its subscribers
+  ros::Subscriber request_subscriber_, goal_subscriber_;
+  DedicatedLane lane_{LaneOptions{"the adapter's lane of calls"}};  // last: joins before the rest goes
 };
 
 }  // namespace external_command

@@ -22,6 +22,7 @@ class PathFollowCommandProcessor : public MotionCommandProcessor<PathFollow> {
   void start() override;
   void open() override;
   void check(const PathFollowCommand& command) const override;
+  bool beginsAtVehicle(const PathFollowCommand& /*command*/) const override { return false; }
   void processSpecialCommand(const PathFollowCommand& command, const CancelToken& cancel, MotionPlan* plan) override;
 
   void takePath(const ros::MessageEvent<nav_msgs::Path const>& event);

@@ -67,19 +67,30 @@ PendingActionParams::PendingActionParams()
                  {ActionCommand::ENTER_MISSION, {"ENTER_MISSION"}},
                  {ActionCommand::EXIT_MISSION, {"EXIT_MISSION"}}}) {}
 
-PendingActions::Changes PendingActions::add(std::int64_t command_id, std::uint8_t action, double now) {
+PendingActions::Changes PendingActions::add(const AdmittedCommand& command, std::uint8_t action, double now) {
   const auto end = [&](const Pending& pending) -> std::optional<CommandStatus> {
     if (!isStopOrGo(action) || !isStopOrGo(pending.action) || action == pending.action) return std::nullopt;
-    return makeStatus(pending.command_id, CommandStatus::ERROR, ErrorCode::kSuperseded,
-                      text("superseded by command ", command_id, ", ", nameOfAction(action)));
+    return makeStatus(pending.command.id, CommandStatus::ERROR, ErrorCode::kSuperseded,
+                      text("superseded by command ", command.id, ", ", nameOfAction(action)));
   };
   Changes changes = endWhere(&pending_, end);
   Pending pending;
-  pending.command_id = command_id;
+  pending.command = command;
   pending.action = action;
   pending.deadline = now + (isHold(action) ? params_.stop_timeout : params_.timeout);
-  pending_.push_back(pending);
+  pending.sent_at = ros::Time::now();
+  pending.was_standing = is_standing_;
+  const Changes dropped = addPending(&pending_, pending);
+  changes.insert(changes.end(), dropped.begin(), dropped.end());
   return changes;
+}
+
+PendingActions::Changes PendingActions::onMotionSent(const AdmittedCommand& motion) {
+  return endWhere(&pending_, [&](const Pending& pending) -> std::optional<CommandStatus> {
+    if (!isHold(pending.action) || pending.command.arrival > motion.arrival) return std::nullopt;
+    return makeStatus(pending.command.id, CommandStatus::ERROR, ErrorCode::kSuperseded,
+                      text("superseded by motion command ", motion.id, ", which was sent after it"));
+  });
 }
 
 bool PendingActions::isShown(const Pending& pending) const {
@@ -90,14 +101,14 @@ bool PendingActions::isShown(const Pending& pending) const {
 
 std::optional<CommandStatus> PendingActions::endOfHold(const Pending& pending) const {
   if (!pending.is_reported || !isShown(pending)) return std::nullopt;
-  return finished(pending.command_id, text("the planner is in the scenario ", scenario_, " and reports finished"));
+  return finished(pending.command.id, text("the planner is in the scenario ", scenario_, " and reports finished"));
 }
 
 std::optional<CommandStatus> PendingActions::afterReport(const CommandStatus& report, bool is_meant,
                                                          Pending* pending) const {
   if (report.status == CommandStatus::ERROR && is_meant) {
     CommandStatus status = report;
-    status.command_id = pending->command_id;
+    status.command_id = pending->command.id;
     if (status.error_code == CommandStatus::OK) status.error_code = CommandStatus::REFUSED_BY_VEHICLE;
     return status;
   }
@@ -107,20 +118,20 @@ std::optional<CommandStatus> PendingActions::afterReport(const CommandStatus& re
     return endOfHold(*pending);
   }
   if (!is_meant || !isAcknowledged(pending->action)) return std::nullopt;
-  return finished(pending->command_id, text("the planner reports finished: ", report.message));
+  return finished(pending->command.id, text("the planner reports finished: ", report.message));
 }
 
-PendingActions::Changes PendingActions::onPlannerStatus(const CommandStatus& status,
-                                                        std::optional<std::int64_t> motion_id) {
+PendingActions::Changes PendingActions::onPlannerStatus(const CommandStatus& status, const SentMotion* motion) {
   // A report without id is rather about an action that is just taken note of than about a stop that takes its time,
   // unless the planner shows that it is stopping.
   const bool some_are_acknowledged = std::any_of(pending_.begin(), pending_.end(),
                                                  [](const Pending& pending) { return isAcknowledged(pending.action); });
   return endWhere(&pending_, [&](Pending& pending) -> std::optional<CommandStatus> {
     if (pending.action == ActionCommand::VIN_REQ) return std::nullopt;
-    const bool has_own_id = status.command_id == pending.command_id;
-    const bool is_about_motion = isHold(pending.action) && status.command_id == motion_id.value_or(0) &&
-                                 status.status == CommandStatus::FINISHED;
+    if (isOlder(status.header.stamp, pending.sent_at, params_.clock_skew)) return std::nullopt;
+    const bool has_own_id = status.command_id == pending.command.id;
+    const bool is_about_motion = isHold(pending.action) && motion != nullptr &&
+                                 status.command_id == motion->command.id && status.status == CommandStatus::FINISHED;
     if (!has_own_id && !is_about_motion && status.command_id != 0) return std::nullopt;
     const bool is_meant = has_own_id || is_about_motion || isAcknowledged(pending.action) || !some_are_acknowledged;
     return afterReport(status, is_meant, &pending);
@@ -132,17 +143,21 @@ PendingActions::Changes PendingActions::onScenario(const std::string& scenario) 
   return endWhere(&pending_, [&](const Pending& pending) -> std::optional<CommandStatus> {
     if (isHold(pending.action)) return endOfHold(pending);
     if (!isShown(pending)) return std::nullopt;
-    return finished(pending.command_id, "the planner is in the scenario " + scenario);
+    return finished(pending.command.id, "the planner is in the scenario " + scenario);
   });
 }
 
 PendingActions::Changes PendingActions::onChassis(const Chassis& chassis) {
-  return endWhere(&pending_, [&](const Pending& pending) -> std::optional<CommandStatus> {
-    if (pending.action == ActionCommand::START && std::abs(chassis.speed_mps) > params_.moving_speed) {
-      return finished(pending.command_id, text("the vehicle moves at ", chassis.speed_mps, " m/s"));
+  const bool tells_speed = std::isfinite(chassis.speed_mps);
+  const bool moves = tells_speed && std::abs(chassis.speed_mps) > params_.moving_speed;
+  is_standing_ = tells_speed && !moves;
+  return endWhere(&pending_, [&](Pending& pending) -> std::optional<CommandStatus> {
+    if (pending.action == ActionCommand::START && moves && pending.was_standing) {
+      return finished(pending.command.id, text("the vehicle moves at ", chassis.speed_mps, " m/s"));
     }
+    pending.was_standing = pending.was_standing || is_standing_;
     if (pending.action == ActionCommand::VIN_REQ && !chassis.vin.empty()) {
-      return finished(pending.command_id, "vin " + chassis.vin);
+      return finished(pending.command.id, "vin " + chassis.vin);
     }
     return std::nullopt;
   });
@@ -153,7 +168,7 @@ PendingActions::Changes PendingActions::onTime(double now) {
     if (now < pending.deadline) return std::nullopt;
     const bool is_hold = isHold(pending.action);
     return makeStatus(
-        pending.command_id, CommandStatus::UNKNOWN, ErrorCode::kOk,
+        pending.command.id, CommandStatus::UNKNOWN, ErrorCode::kOk,
         text(nameOfAction(pending.action), " was sent, but nothing showed its end within ",
              is_hold ? params_.stop_timeout : params_.timeout, is_hold ? " s (~stop_timeout)" : " s (~timeout)"));
   });

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "external_command/Chassis.h"
-#include "external_command/CommandStatus.h"
+#include "external_command/ros/command_gate.h"
+#include "external_command/ros/command_registry.h"
 
 namespace external_command {
 
@@ -22,6 +23,7 @@ struct PendingActionParams {
   double timeout = 30.0;        ///< after which the end of an action is UNKNOWN [s]
   double stop_timeout = 120.0;  ///< the same of STOP and PULL_OVER [s]
   double moving_speed = 0.1;    ///< a faster vehicle moves [m/s]
+  double clock_skew = 0.5;      ///< a report stamped this much before its action was sent still counts [s]
   /// Scenarios of the planner that show an action, by action.
   std::map<std::uint8_t, std::vector<std::string>> scenarios;
 
@@ -33,34 +35,40 @@ struct PendingActionParams {
 ///
 ///   FOLLOW, CHANGE_*, *_MISSION   a report of the planner, or a scenario that shows it
 ///   STOP, PULL_OVER               a scenario that shows it, and a report that it is finished
-///   START                         a vehicle that moves
+///   START                         a vehicle that was seen standing, and then moves
 ///   VIN_REQ                       a chassis that reports a vin
 ///
+/// A motion command that is sent after a STOP or PULL_OVER supersedes it.
+///
 /// A report is about an action where it has the action's id or 0, for STOP and PULL_OVER also that of the running
-/// motion command. Each call returns the statuses that changed. Not thread-safe.
+/// motion command; those that are older than the action count for nothing. Each call returns the statuses that changed.
+/// Not thread-safe.
 class PendingActions {
  public:
-  using Changes = std::vector<CommandStatus>;
+  using Changes = std::vector<StatusChange>;
 
   explicit PendingActions(PendingActionParams params) : params_(std::move(params)) {}
 
   /// To be called right before the action is sent. Of STOP, PULL_OVER and START the newest counts: another that is
   /// still waited for is superseded.
   /// @param now  [s], of any steady clock.
-  Changes add(std::int64_t command_id, std::uint8_t action, double now);
+  Changes add(const AdmittedCommand& command, std::uint8_t action, double now);
 
-  /// @param motion_id  of the motion command sent last.
-  Changes onPlannerStatus(const CommandStatus& status, std::optional<std::int64_t> motion_id);
+  /// @param motion  that is under way; may be nullptr.
+  Changes onPlannerStatus(const CommandStatus& status, const SentMotion* motion);
+  Changes onMotionSent(const AdmittedCommand& motion);
   Changes onScenario(const std::string& scenario);
   Changes onChassis(const Chassis& chassis);
   Changes onTime(double now);
 
  private:
   struct Pending {
-    std::int64_t command_id = 0;
+    AdmittedCommand command;
     std::uint8_t action = 0;
     double deadline = 0.0;     ///< [s]
+    ros::Time sent_at;         ///< to compare with the stamps of reports
     bool is_reported = false;  ///< as finished
+    bool was_standing = false;
   };
 
   bool isShown(const Pending& pending) const;
@@ -69,7 +77,8 @@ class PendingActions {
 
   const PendingActionParams params_;
   std::vector<Pending> pending_;
-  std::string scenario_;  ///< the planner's present one
+  std::string scenario_;      ///< the planner's present one
+  bool is_standing_ = false;  ///< the vehicle, as reported last
 };
 
 }  // namespace external_command

@@ -2,21 +2,43 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
-#include "external_command/CommandStatus.h"
+#include "external_command/core/text.h"
+#include "external_command/ros/command_registry.h"
+#include "external_command/ros/status.h"
 
 namespace external_command {
 
-/// Removes each of `pending` for which `end(item)` gives a status (std::optional), and returns these statuses.
+/// Removes each of `pending` for which `end(item)` gives a status (std::optional), and returns these statuses; the
+/// items hold their `command`.
 template <class Pending, class End>
-std::vector<CommandStatus> endWhere(std::vector<Pending>* pending, const End& end) {
-  std::vector<CommandStatus> ended;
+std::vector<StatusChange> endWhere(std::vector<Pending>* pending, const End& end) {
+  std::vector<StatusChange> ended;
   for (auto item = pending->begin(); item != pending->end();) {
     const std::optional<CommandStatus> status = end(*item);
-    if (status) ended.push_back(*status);
+    if (status) ended.push_back({item->command.serial, *status});
     item = status ? pending->erase(item) : item + 1;
   }
+  return ended;
+}
+
+/// What is waited for stays bounded, whatever is flooded in.
+constexpr std::size_t kMostPending = 1000;
+
+/// Adds `item`; of too many the oldest ends, whose status is given.
+template <class Pending>
+std::vector<StatusChange> addPending(std::vector<Pending>* pending, Pending item) {
+  std::vector<StatusChange> ended;
+  if (pending->size() >= kMostPending) {
+    const AdmittedCommand& oldest = pending->front().command;
+    ended.push_back({oldest.serial, makeStatus(oldest.id, CommandStatus::ERROR, ErrorCode::kSuperseded,
+                                               text("its end is waited for no longer: ", kMostPending,
+                                                    " newer commands of its service are pending"))});
+    pending->erase(pending->begin());
+  }
+  pending->push_back(std::move(item));
   return ended;
 }
 

@@ -63,13 +63,15 @@ bool commandsAny(const VehicleSignal& commanded) {
   return false;
 }
 
-PendingSignals::Changes PendingSignals::add(std::int64_t command_id, const VehicleSignal& commanded, double now) {
+PendingSignals::Changes PendingSignals::add(const AdmittedCommand& command, const VehicleSignal& commanded,
+                                            double now) {
   Changes changes = endWhere(&pending_, [&](const Pending& pending) -> std::optional<CommandStatus> {
     if (!contradict(pending.commanded, commanded)) return std::nullopt;
-    return makeStatus(pending.command_id, CommandStatus::ERROR, ErrorCode::kSuperseded,
-                      text("superseded by command ", command_id));
+    return makeStatus(pending.command.id, CommandStatus::ERROR, ErrorCode::kSuperseded,
+                      text("superseded by command ", command.id));
   });
-  pending_.push_back({command_id, commanded, now + timeout_});
+  const Changes dropped = addPending(&pending_, Pending{command, commanded, now + timeout_});
+  changes.insert(changes.end(), dropped.begin(), dropped.end());
   return changes;
 }
 
@@ -77,7 +79,7 @@ PendingSignals::Changes PendingSignals::onChassis(const VehicleSignal& reported)
   reported_ = reported;
   return endWhere(&pending_, [&](const Pending& pending) -> std::optional<CommandStatus> {
     if (!differences(pending.commanded, reported).empty()) return std::nullopt;
-    return makeStatus(pending.command_id, CommandStatus::FINISHED, ErrorCode::kOk,
+    return makeStatus(pending.command.id, CommandStatus::FINISHED, ErrorCode::kOk,
                       "the chassis reports the signals as commanded");
   });
 }
@@ -85,7 +87,7 @@ PendingSignals::Changes PendingSignals::onChassis(const VehicleSignal& reported)
 PendingSignals::Changes PendingSignals::onTime(double now) {
   return endWhere(&pending_, [&](const Pending& pending) -> std::optional<CommandStatus> {
     if (now < pending.deadline) return std::nullopt;
-    return makeStatus(pending.command_id, CommandStatus::UNKNOWN, ErrorCode::kOk,
+    return makeStatus(pending.command.id, CommandStatus::UNKNOWN, ErrorCode::kOk,
                       text("the chassis did not report the signals as commanded within ", timeout_,
                            " s (~timeout): ", differences(pending.commanded, reported_)));
   });

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "external_command/CommandStatus.h"
 #include "external_command/VehicleSignal.h"
+#include "external_command/ros/command_registry.h"
 
 namespace external_command {
 
@@ -19,21 +19,21 @@ bool commandsAny(const VehicleSignal& commanded);
 /// Not thread-safe.
 class PendingSignals {
  public:
-  using Changes = std::vector<CommandStatus>;
+  using Changes = std::vector<StatusChange>;
 
   /// @param timeout  after which the end of a command is UNKNOWN [s].
   explicit PendingSignals(double timeout) : timeout_(timeout) {}
 
   /// To be called right before the command is sent. An older one that wants the same signal otherwise is superseded.
   /// @param now  [s], of any steady clock.
-  Changes add(std::int64_t command_id, const VehicleSignal& commanded, double now);
+  Changes add(const AdmittedCommand& command, const VehicleSignal& commanded, double now);
 
   Changes onChassis(const VehicleSignal& reported);
   Changes onTime(double now);
 
  private:
   struct Pending {
-    std::int64_t command_id = 0;
+    AdmittedCommand command;
     VehicleSignal commanded;
     double deadline = 0.0;  ///< [s]
   };

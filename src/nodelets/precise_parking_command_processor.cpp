@@ -72,13 +72,22 @@ const Area& PreciseParkingCommandProcessor::areaOf(const PreciseParkingCommand& 
                             " areas of the map; precise parking needs one, free space does not"));
 }
 
-std::optional<RoutingTask> PreciseParkingCommandProcessor::convert(const PreciseParkingCommand& command) {
+bool PreciseParkingCommandProcessor::needsNoLanes(const PreciseParkingCommand& command, const Pose2d& vehicle) const {
+  return !command.is_start_pose_set && command.way_point.empty() &&
+         areaOf(command).polygon.contains(vehicle.position());
+}
+
+double PreciseParkingCommandProcessor::planningTime(const PreciseParkingCommand& command, const Pose2d& vehicle) const {
+  return needsNoLanes(command, vehicle) ? planner_->params().time_budget : 0.0;
+}
+
+std::optional<RoutingTask> PreciseParkingCommandProcessor::convert(const PreciseParkingCommand& command,
+                                                                   const PlanStart& start) {
   const Area& area = areaOf(command);
-  const bool starts_inside = !command.is_start_pose_set && command.way_point.empty() &&
-                             area.polygon.contains(context().vehiclePose().get().position());
-  if (starts_inside) return std::nullopt;
+  if (needsNoLanes(command, start.pose())) return std::nullopt;
   const HdMap& map = context().requireRouter().map();
-  RoutingTask task = beginRoutingTask(context(), command.header.frame_id, command.is_start_pose_set, command.way_point);
+  RoutingTask task =
+      beginRoutingTask(context(), start, command.header.frame_id, command.is_start_pose_set, command.way_point);
   setGoals(map, accessPoints(map, area, access_distance_), &task);
   return task;
 }
@@ -92,7 +101,7 @@ void PreciseParkingCommandProcessor::processSpecialCommand(const PreciseParkingC
   const Pose2d before = compose(spot, {command.parking_inwards ? -straight_last_ : straight_last_, 0.0, 0.0});
   const Polygon& area = areaOf(command).polygon;
 
-  const Pose2d entry = plan->path.empty() ? context().vehiclePose().get() : plan->path.back().pose();
+  const Pose2d entry = plan->path.empty() ? plan->start.pose() : plan->path.back().pose();
   const Region region = planner_->regionOf(surfaceWith(map, area, entry));
   const Path last = straightPath(before, straight_last_, into, planner_->params().spacing, vehicle);
   const CollisionChecker checker(vehicle, planner_->params().margin, region);
@@ -109,7 +118,7 @@ void PreciseParkingCommandProcessor::processSpecialCommand(const PreciseParkingC
     showRegion(region, &plan->scene);
   } else {
     if (!command.is_start_pose_set) {
-      leaveParkingPlace(context(), context().vehiclePose().get(), *planner_, cancel, plan);
+      leaveParkingPlace(context(), plan->start.pose(), *planner_, cancel, plan);
     }
     leaveRouteFor({before}, region, *planner_, cancel, plan);
   }

@@ -17,11 +17,13 @@ class PreciseParkingCommandProcessor : public MotionCommandProcessor<PrecisePark
  private:
   void start() override;
   void check(const PreciseParkingCommand& command) const override;
-  std::optional<RoutingTask> convert(const PreciseParkingCommand& command) override;
+  std::optional<RoutingTask> convert(const PreciseParkingCommand& command, const PlanStart& start) override;
+  double planningTime(const PreciseParkingCommand& command, const Pose2d& vehicle) const override;
   void processSpecialCommand(const PreciseParkingCommand& command, const CancelToken& cancel,
                              MotionPlan* plan) override;
 
   Pose2d spotOf(const PreciseParkingCommand& command) const;
+  bool needsNoLanes(const PreciseParkingCommand& command, const Pose2d& vehicle) const;
   const Area& areaOf(const PreciseParkingCommand& command) const;
 
   std::optional<ManoeuvrePlanner> planner_;

@@ -37,7 +37,7 @@ void SpeedCommandProcessor::check(const SpeedCommand& command) const {
   }
 }
 
-CommandStatus SpeedCommandProcessor::execute(const SpeedCommand& command, const CommandGate::Arrival& /*arrival*/,
+CommandStatus SpeedCommandProcessor::execute(const SpeedCommand& command, const AdmittedCommand& /*admitted*/,
                                              Response* /*response*/) {
   const double limit = context().params().vehicle.max_speed;
   SpeedCommand sent = command;

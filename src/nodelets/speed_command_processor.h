@@ -18,7 +18,7 @@ class SpeedCommandProcessor : public ServiceCommandProcessor<Speed> {
  private:
   void start() override;
   void check(const SpeedCommand& command) const override;
-  CommandStatus execute(const SpeedCommand& command, const CommandGate::Arrival& arrival, Response* response) override;
+  CommandStatus execute(const SpeedCommand& command, const AdmittedCommand& admitted, Response* response) override;
 
   double max_request_age_ = 2.0;  ///< [s]
   std::vector<ros::Publisher> publishers_;

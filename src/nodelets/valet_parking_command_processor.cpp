@@ -56,13 +56,15 @@ void ValetParkingCommandProcessor::check(const ValetParkingCommand& command) con
   requireNotNegative(command.target_speed, "target_speed");
 }
 
-std::optional<RoutingTask> ValetParkingCommandProcessor::convert(const ValetParkingCommand& command) {
+std::optional<RoutingTask> ValetParkingCommandProcessor::convert(const ValetParkingCommand& command,
+                                                                 const PlanStart& start) {
   const HdMap& map = context().requireRouter().map();
   bool used_geometry = false;
   std::vector<LanePoint> candidates =
       LaneWayTool(map, context().params().lane_way).fromParkingSpace(command.parking_spot_id, &used_geometry);
 
-  RoutingTask task = beginRoutingTask(context(), command.header.frame_id, command.is_start_pose_set, command.way_point);
+  RoutingTask task =
+      beginRoutingTask(context(), start, command.header.frame_id, command.is_start_pose_set, command.way_point);
   if (task.query.via.empty()) {
     stayBeside(map, *map.findParkingSpace(command.parking_spot_id), task.query.starts, &candidates);
   }
@@ -81,7 +83,7 @@ void ValetParkingCommandProcessor::processSpecialCommand(const ValetParkingComma
   const VehicleParams& vehicle = context().params().vehicle;
   const ParkingSpace& space = *map.findParkingSpace(command.parking_spot_id);
   if (!command.is_start_pose_set) {
-    leaveParkingPlace(context(), context().vehiclePose().get(), *planner_, cancel, plan);
+    leaveParkingPlace(context(), plan->start.pose(), *planner_, cancel, plan);
   }
   const double margin = planner_->params().margin;
   const std::vector<Pose2d> goals = parkingPoses(space, vehicle, margin, direction_);

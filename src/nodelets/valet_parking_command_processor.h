@@ -17,7 +17,7 @@ class ValetParkingCommandProcessor : public MotionCommandProcessor<ValetParking>
  private:
   void start() override;
   void check(const ValetParkingCommand& command) const override;
-  std::optional<RoutingTask> convert(const ValetParkingCommand& command) override;
+  std::optional<RoutingTask> convert(const ValetParkingCommand& command, const PlanStart& start) override;
   void processSpecialCommand(const ValetParkingCommand& command, const CancelToken& cancel, MotionPlan* plan) override;
 
   std::optional<ManoeuvrePlanner> planner_;

@@ -18,6 +18,18 @@ bool contains(const std::vector<std::size_t>& indices, std::size_t index) {
   return std::find(indices.begin(), indices.end(), index) != indices.end();
 }
 
+/// With the point indices of a path that `shift` points were put in front of; the vehicle may have driven some already.
+std::vector<Swath> shifted(std::vector<Swath> swaths, std::ptrdiff_t shift) {
+  const auto moved = [&](std::size_t index) {
+    return static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(index) + shift));
+  };
+  for (Swath& swath : swaths) {
+    swath.first = moved(swath.first);
+    swath.last = moved(swath.last);
+  }
+  return swaths;
+}
+
 }  // namespace
 
 CoverageParams readCoverageParams(const ParameterReader& reader) {
@@ -49,8 +61,9 @@ ZoneCoverCommandProcessor::ZoneCoverCommandProcessor()
     : MotionCommandProcessor<ZoneCover>("external_command/zone_cover") {}
 
 ZoneCoverCommandProcessor::~ZoneCoverCommandProcessor() {
-  tracking_timer_.stop();
   stopServing();
+  tracking_timer_.stop();
+  tracking_lane_.stop();
 }
 
 void ZoneCoverCommandProcessor::start() {
@@ -66,7 +79,7 @@ void ZoneCoverCommandProcessor::open() {
   ros::SteadyTimerOptions options;
   options.period = ros::WallDuration(kTrackingPeriod);
   options.callback = [this](const ros::SteadyTimerEvent&) { track(); };
-  options.callback_queue = lane().queue();
+  options.callback_queue = tracking_lane_.queue();
   tracking_timer_ = getNodeHandle().createSteadyTimer(options);
 }
 
@@ -123,17 +136,27 @@ CoverageArea ZoneCoverCommandProcessor::zoneOf(const ZoneCoverCommand& command) 
   return zone;
 }
 
-Pose2d ZoneCoverCommandProcessor::givenStart(const ZoneCoverCommand& command) const {
-  if (!command.is_start_pose_set) return context().vehiclePose().get();
+Pose2d ZoneCoverCommandProcessor::givenStart(const ZoneCoverCommand& command, const PlanStart& start) const {
+  if (!command.is_start_pose_set) return start.pose();
   return toMapPose(command.way_point[0], context().vehiclePose().ofFrame(command.header.frame_id));
 }
 
-std::optional<RoutingTask> ZoneCoverCommandProcessor::convert(const ZoneCoverCommand& command) {
+bool ZoneCoverCommandProcessor::isInside(const ZoneCoverCommand& command, const PlanStart& start) const {
+  const bool has_way = command.way_point.size() > (command.is_start_pose_set ? 1u : 0u);
+  return !has_way && areaOf(command).polygon.contains(givenStart(command, start).position());
+}
+
+double ZoneCoverCommandProcessor::planningTime(const ZoneCoverCommand& command, const Pose2d& vehicle) const {
+  const bool drives_lanes = !command.zone_cover_area_id.empty() && !isInside(command, PlanStart(vehicle));
+  return drives_lanes ? 0.0 : coverage_params_.time_budget;
+}
+
+std::optional<RoutingTask> ZoneCoverCommandProcessor::convert(const ZoneCoverCommand& command, const PlanStart& start) {
   if (command.zone_cover_area_id.empty()) return std::nullopt;
   const Area& area = areaOf(command);
-  const bool has_way = command.way_point.size() > (command.is_start_pose_set ? 1u : 0u);
-  if (!has_way && area.polygon.contains(givenStart(command).position())) return std::nullopt;
-  RoutingTask task = beginRoutingTask(context(), command.header.frame_id, command.is_start_pose_set, command.way_point);
+  if (isInside(command, start)) return std::nullopt;
+  RoutingTask task =
+      beginRoutingTask(context(), start, command.header.frame_id, command.is_start_pose_set, command.way_point);
   setGoals(context().requireRouter().map(), accessPoints(context().requireRouter().map(), area, access_distance_),
            &task);
   return task;
@@ -143,7 +166,7 @@ void ZoneCoverCommandProcessor::enterZone(const ZoneCoverCommand& command, const
                                           const CancelToken& cancel, MotionPlan* plan) const {
   const HdMap& map = context().requireRouter().map();
   if (!command.is_start_pose_set) {
-    leaveParkingPlace(context(), context().vehiclePose().get(), *planner_, cancel, plan);
+    leaveParkingPlace(context(), plan->start.pose(), *planner_, cancel, plan);
   }
   const Pose2d from = plan->path.back().pose();
   const auto entries = zoneEntries(zone, context().params().vehicle, coverage_params_.margin, from);
@@ -191,7 +214,7 @@ void ZoneCoverCommandProcessor::processSpecialCommand(const ZoneCoverCommand& co
   const CoverageParams params = paramsFor(command);
   const CoveragePlanner planner(context().params().vehicle, params);
   if (!plan->path.empty()) enterZone(command, zone, cancel, plan);
-  const Pose2d start = plan->path.empty() ? givenStart(command) : plan->path.back().pose();
+  const Pose2d start = plan->path.empty() ? givenStart(command, plan->start) : plan->path.back().pose();
 
   track();  // so that the file tells of an earlier run's last moments too
   ZonePlanFile file(progress_folder_, zoneKey(zone, params, context().params().vehicle));
@@ -214,16 +237,21 @@ void ZoneCoverCommandProcessor::processSpecialCommand(const ZoneCoverCommand& co
     todo += swath.covered_area;
   }
   progress.lines = std::move(coverage.lines);
-  file.write(progress);
-  const std::lock_guard<std::mutex> lock(sweep_mutex_);
-  sweep_.emplace(Sweep{command.command_id, ZoneTracker(plan->path, coverage.swaths), file, progress,
-                       std::max(0.0, coverage.covered_area - todo), coverage.reachable_area});
+  const double covered_before = std::max(0.0, coverage.covered_area - todo);
+  plan->on_sent = [=, swaths = coverage.swaths, goal_area = coverage.reachable_area](const SentMotion& motion) {
+    file.write(progress);
+    const std::lock_guard<std::mutex> lock(sweep_mutex_);
+    sweep_.emplace(Sweep{motion.command, ZoneTracker(*motion.path, shifted(swaths, motion.index_shift)), file, progress,
+                         covered_before, goal_area});
+  };
 }
 
 void ZoneCoverCommandProcessor::track() {
   const std::lock_guard<std::mutex> lock(sweep_mutex_);
-  if (!sweep_ || context().gate().lastSent() != sweep_->command_id) return;
-  const CommandStatus status = context().registry().find(sweep_->command_id);
+  if (!sweep_) return;
+  const std::optional<CommandStatus> known = context().registry().statusOf(sweep_->command.serial);
+  if (!known) return sweep_.reset();
+  const CommandStatus& status = *known;
   try {
     if (status.status == CommandStatus::FINISHED) keepDone(sweep_->tracker.swaths().size());
     if (status.status == CommandStatus::RUNNING) followVehicle();
@@ -239,10 +267,12 @@ void ZoneCoverCommandProcessor::followVehicle() {
   keepDone(tracker.current());
   const double covered = sweep_->covered_before + tracker.coveredArea();
   const std::size_t total = sweep_->progress.lines.size();
-  context().registry().update(makeStatus(
-      sweep_->command_id, CommandStatus::RUNNING, ErrorCode::kOk,
-      text("swath ", std::min(sweep_->progress.done.size() + 1, total), " of ", total, ", ",
-           static_cast<int>(100.0 * std::min(covered / std::max(sweep_->goal_area, 1e-9), 1.0)), " % covered")));
+  context().registry().update(
+      {sweep_->command.serial,
+       makeStatus(
+           sweep_->command.id, CommandStatus::RUNNING, ErrorCode::kOk,
+           text("swath ", std::min(sweep_->progress.done.size() + 1, total), " of ", total, ", ",
+                static_cast<int>(100.0 * std::min(covered / std::max(sweep_->goal_area, 1e-9), 1.0)), " % covered"))});
 }
 
 /// The first `count` swaths of the path are swept.

@@ -21,7 +21,7 @@ class ZoneCoverCommandProcessor : public MotionCommandProcessor<ZoneCover> {
  private:
   /// A zone that is being swept.
   struct Sweep {
-    std::int64_t command_id;
+    AdmittedCommand command;
     ZoneTracker tracker;
     ZonePlanFile file;
     CoverageProgress progress;
@@ -32,14 +32,16 @@ class ZoneCoverCommandProcessor : public MotionCommandProcessor<ZoneCover> {
   void start() override;
   void open() override;
   void check(const ZoneCoverCommand& command) const override;
-  std::optional<RoutingTask> convert(const ZoneCoverCommand& command) override;
+  std::optional<RoutingTask> convert(const ZoneCoverCommand& command, const PlanStart& start) override;
+  double planningTime(const ZoneCoverCommand& command, const Pose2d& vehicle) const override;
   void processSpecialCommand(const ZoneCoverCommand& command, const CancelToken& cancel, MotionPlan* plan) override;
 
   /// With the command's own swath width, where it has one. @throws InvalidRequest
   CoverageParams paramsFor(const ZoneCoverCommand& command) const;
   const Area& areaOf(const ZoneCoverCommand& command) const;
   CoverageArea zoneOf(const ZoneCoverCommand& command) const;
-  Pose2d givenStart(const ZoneCoverCommand& command) const;
+  Pose2d givenStart(const ZoneCoverCommand& command, const PlanStart& start) const;
+  bool isInside(const ZoneCoverCommand& command, const PlanStart& start) const;
   void enterZone(const ZoneCoverCommand& command, const CoverageArea& zone, const CancelToken& cancel,
                  MotionPlan* plan) const;
   static CoverageProgress progressOf(const ZoneCoverCommand& command, const ZonePlanFile& file);
@@ -55,6 +57,7 @@ class ZoneCoverCommandProcessor : public MotionCommandProcessor<ZoneCover> {
   std::string progress_folder_ = "~/.ros/external_command";
   std::mutex sweep_mutex_;
   std::optional<Sweep> sweep_;
+  DedicatedLane tracking_lane_{LaneOptions{"the lane that follows a sweep"}};  // before its timer
   ros::SteadyTimer tracking_timer_;
 };
 

@@ -1,64 +1,97 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "external_command/ros/command_gate.h"
 
+#include <unistd.h>
+
+#include <atomic>
+#include <utility>
+
 #include "external_command/core/text.h"
 
 namespace external_command {
 
-CommandGate::Arrival CommandGate::arrive() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  Arrival arrival;
-  arrival.stop_epoch_ = stop_epoch_;
-  return arrival;
+namespace {
+
+std::string uniqueName() {
+  static std::atomic<int> gates{0};
+  return text(getpid(), "-", ros::WallTime::now().toNSec(), "-", ++gates);
 }
 
-CommandGate::Ticket CommandGate::begin(std::int64_t command_id, const Arrival& arrival) {
+}  // namespace
+
+CommandGate::CommandGate() : name_(uniqueName()) {}
+
+bool CommandGate::wasStoppedSince(const ros::WallTime& time) const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (arrival.stop_epoch_ != stop_epoch_) throw Cancelled(text("command ", command_id, " was stopped before it began"));
-  planning_.cancel();
-  planning_ = CancelSource();
-  newest_id_ = command_id;
+  return !last_stop_.isZero() && last_stop_ >= time;
+}
+
+ArrivalNumber CommandGate::arrive() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return ++arrivals_;
+}
+
+void CommandGate::requireNewest(const AdmittedCommand& command) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  requireNewestLocked(command);
+}
+
+void CommandGate::requireNewestLocked(const AdmittedCommand& command) const {
+  if (command.arrival <= stopped_) {
+    throw Cancelled(text("command ", command.id, " arrived before a stop; nothing of it was sent"));
+  }
+  if (command.arrival < newest_.arrival) {
+    throw Superseded(text("superseded by command ", newest_.id, ", which arrived later; nothing of command ",
+                          command.id, " was sent"));
+  }
+}
+
+CommandGate::Ticket CommandGate::begin(const AdmittedCommand& command, const CancelSource& planning) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  requireNewestLocked(command);
+  if (newest_.serial != command.serial) planning_.cancel();  // it may begin once more
+  planning_ = planning;
+  newest_ = command;
   Ticket ticket;
-  ticket.command_id_ = command_id;
-  ticket.epoch_ = ++epoch_;
-  ticket.planning_ = planning_;
+  ticket.command_ = command;
+  ticket.planning_ = planning;
   return ticket;
 }
 
-void CommandGate::requireCurrent(const Ticket& ticket) const {
+std::shared_ptr<const SentMotion> CommandGate::commit(const Ticket& ticket, std::shared_ptr<const SentMotion> motion,
+                                                      const std::function<void()>& publish) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  requireCurrentLocked(ticket);
-}
-
-void CommandGate::requireCurrentLocked(const Ticket& ticket) const {
-  if (ticket.epoch_ <= stop_epoch_) {
-    throw Cancelled(text("command ", ticket.command_id_, " was stopped while it was being planned"));
-  }
-  if (ticket.epoch_ != epoch_) {
-    throw Superseded(text("superseded by command ", newest_id_, " while it was being planned"));
-  }
-}
-
-std::optional<std::int64_t> CommandGate::commit(const Ticket& ticket, const std::function<void()>& publish) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  requireCurrentLocked(ticket);
+  requireNewestLocked(ticket.command_);
   publish();
-  const auto replaced = last_sent_;
-  last_sent_ = ticket.command_id_;
-  return replaced;
+  motion_.swap(motion);
+  return motion;
 }
 
-std::optional<std::int64_t> CommandGate::stop(const std::function<void()>& publish) {
+std::shared_ptr<const SentMotion> CommandGate::stop(bool withdraws, const std::function<void()>& publish) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  stop_epoch_ = ++epoch_;
+  stopped_ = arrivals_;
+  last_stop_ = ros::WallTime::now();
   planning_.cancel();
   if (publish) publish();
-  return last_sent_;
+  if (withdraws && motion_ && motion_->topics) motion_->topics->withdraw();
+  return motion_;
 }
 
-std::optional<std::int64_t> CommandGate::lastSent() const {
+void CommandGate::retire(CommandSerial serial) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return last_sent_;
+  if (!motion_ || motion_->command.serial != serial) return;
+  if (motion_->topics) motion_->topics->withdraw();
+  motion_.reset();
+}
+
+void CommandGate::showAgain(CommandSerial serial, const Path& rest) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (motion_ && motion_->command.serial == serial && motion_->topics) motion_->topics->showAgain(rest);
+}
+
+std::shared_ptr<const SentMotion> CommandGate::motion() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return motion_;
 }
 
 }  // namespace external_command

@@ -35,10 +35,12 @@ bool isOfThisPackage(const CommandProcessor& processor) {
 }  // namespace
 
 CommandProcessor::CommandProcessor() = default;
-CommandProcessor::~CommandProcessor() = default;
+CommandProcessor::~CommandProcessor() {
+  for (auto& queue : guarded_queues_) retire(std::move(queue));
+}
 
 void CommandProcessor::onInit() {
-  keepQueues();
+  guardQueues();
   std::string reason;
   try {
     startAll();
@@ -70,12 +72,16 @@ void CommandProcessor::startAll() {
   if (isOfThisPackage(*this)) warnOfStrayParameters(ns);
 }
 
-/// nodelet::Loader deletes the callback queues of a nodelet that did not start before the nodelet; its subscribers
-/// would then take themselves out of a queue that is gone.
-void CommandProcessor::keepQueues() {
-  for (const ros::NodeHandle& nh : {getNodeHandle(), getMTNodeHandle()}) {
-    auto* const queue = dynamic_cast<nodelet::detail::CallbackQueue*>(nh.getCallbackQueue());
-    if (queue != nullptr) queues_.emplace_back(queue->shared_from_this());
+/// Callbacks on the nodelet's own queues are guarded too. nodelet::Loader deletes these queues, of a nodelet that did
+/// not start, before the nodelet; its subscribers would then take themselves out of a queue that is gone.
+void CommandProcessor::guardQueues() {
+  for (ros::NodeHandle* nh :
+       {&getNodeHandle(), &getPrivateNodeHandle(), &getMTNodeHandle(), &getMTPrivateNodeHandle()}) {
+    ros::CallbackQueueInterface* const queue = nh->getCallbackQueue();
+    auto* const nodelets_own = dynamic_cast<nodelet::detail::CallbackQueue*>(queue);
+    if (nodelets_own != nullptr) nodelet_queues_.emplace_back(nodelets_own->shared_from_this());
+    guarded_queues_.push_back(std::make_shared<GuardedQueue>("the nodelet " + getName(), queue));
+    nh->setCallbackQueue(guarded_queues_.back().get());
   }
 }
 

@@ -2,6 +2,7 @@
 #include "external_command/ros/command_registry.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "external_command/core/text.h"
@@ -14,131 +15,212 @@ namespace {
 /// Ids of an earlier run of this process must not come again: a planner may still report about them.
 std::int64_t firstFreshId() { return static_cast<std::int64_t>(ros::WallTime::now().sec) * 1000; }
 
+bool canBeReported(std::uint8_t status) {
+  return status == CommandStatus::RUNNING || status == CommandStatus::FINISHED || status == CommandStatus::ERROR;
+}
+
 }  // namespace
 
-CommandRegistry::CommandRegistry(Listener listener) : listener_(std::move(listener)), next_id_(firstFreshId()) {}
+CommandRegistry::CommandRegistry(Listener listener, ReportRules rules)
+    : listener_(std::move(listener)), rules_(rules), next_id_(firstFreshId()) {}
 
 CommandRegistry::Admission CommandRegistry::admit(std::int64_t wanted_id, const std::string& processor,
                                                   std::uint64_t digest) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const auto known = records_.find(wanted_id);
-  if (known != records_.end() && !hasEnded(known->second.status)) {
-    const Record& record = known->second;
-    if (record.digest == digest && record.processor == processor) return {wanted_id, record.status};
-    throw DuplicateId(text("command_id ", wanted_id, " belongs to a command of ", record.processor,
+  const Record* const known = byId(wanted_id);
+  if (known != nullptr && known->state != State::kEnded) {
+    if (known->digest == digest && known->processor == processor) {
+      return {{serials_.at(wanted_id), wanted_id, 0}, known->status, ""};
+    }
+    throw DuplicateId(text("command_id ", wanted_id, " belongs to a command of ", known->processor,
                            " that is still running; use another id, or 0 for a fresh one"));
   }
-  Record& record = add(wanted_id, processor);
-  record.digest = digest;
-  const std::int64_t id = record.status.command_id;
-  change(&record, makeStatus(id, CommandStatus::RUNNING, ErrorCode::kOk, "being planned"));
-  return {id, std::nullopt};
+  return letIn(wanted_id, processor, digest);
+}
+
+CommandRegistry::Admission CommandRegistry::admitAlways(std::int64_t wanted_id, const std::string& processor) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const Record* const known = byId(wanted_id);
+  if (known == nullptr || known->state == State::kEnded) return letIn(wanted_id, processor, 0);
+  const std::string owner = known->processor;
+  Admission admission = letIn(0, processor, 0);
+  admission.note = text("command_id ", wanted_id, " belongs to a command of ", owner,
+                        " that is still running; this one is command ", admission.command.id);
+  return admission;
 }
 
 CommandStatus CommandRegistry::refuse(CommandStatus status, const std::string& processor) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const auto known = records_.find(status.command_id);
-  if (known != records_.end() && !hasEnded(known->second.status)) return status;
-  Record& record = add(status.command_id, processor);
-  status.command_id = record.status.command_id;
-  change(&record, status);
+  const Record* const known = byId(status.command_id);
+  if (known != nullptr && known->state != State::kEnded) return status;
+  const AdmittedCommand command = add(status.command_id, processor, 0);
+  status.command_id = command.id;
+  change(command.serial, running(command.serial), status);
   return status;
 }
 
-void CommandRegistry::markSent(std::int64_t command_id, const std::string& message) {
+void CommandRegistry::markSent(CommandSerial serial, const std::string& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const auto known = records_.find(command_id);
-  if (known == records_.end() || hasEnded(known->second.status)) return;
-  Record& record = known->second;
-  record.was_sent = true;
-  record.sent_at = ros::Time::now();
-  record.last_report = ros::WallTime::now();
-  change(&record, makeStatus(command_id, CommandStatus::RUNNING, ErrorCode::kOk, message));
+  Record* const record = running(serial);
+  if (record == nullptr) return;
+  record->state = State::kSent;
+  record->sent_at = ros::Time::now();
+  record->last_report = ros::SteadyTime::now();
+  record->said = message;
+  say(serial, record);
 }
 
-bool CommandRegistry::update(const CommandStatus& status) {
+void CommandRegistry::noteAnswer(CommandSerial serial, const std::string& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const auto known = records_.find(status.command_id);
-  if (known == records_.end() || hasEnded(known->second.status)) return false;
-  known->second.has_own_message = true;
-  change(&known->second, status);
+  Record* const record = running(serial);
+  if (record == nullptr || record->state != State::kPlanned) return;
+  record->said = message;
+  say(serial, record);
+}
+
+bool CommandRegistry::update(const StatusChange& update) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  Record* const record = running(update.serial);
+  if (record == nullptr) return false;
+  if (hasEnded(update.status)) {
+    change(update.serial, record, update.status);
+  } else {
+    record->progress = update.status.message;
+    say(update.serial, record);
+  }
   return true;
 }
 
-void CommandRegistry::report(const CommandStatus& status, const std::string& processor) {
+bool CommandRegistry::report(const CommandStatus& status, const std::string& processor) {
+  if (!canBeReported(status.status)) return false;
   const std::lock_guard<std::mutex> lock(mutex_);
-  const auto known = records_.find(status.command_id);
-  if (known == records_.end() || known->second.processor != processor) return;
-  Record& record = known->second;
-  const bool is_older = !status.header.stamp.isZero() && status.header.stamp < record.sent_at;
-  if (hasEnded(record.status) || !record.was_sent || is_older) return;
-  record.last_report = ros::WallTime::now();
-  record.is_silent = false;
-  if (status.status == CommandStatus::UNKNOWN) return;
-  CommandStatus reported = status;
-  if (!hasEnded(status) && record.has_own_message) reported.message = record.status.message;
-  if (status.status == CommandStatus::ERROR && status.error_code == CommandStatus::OK) {
-    reported.error_code = CommandStatus::REFUSED_BY_VEHICLE;
+  const auto known = serials_.find(status.command_id);
+  if (known == serials_.end()) return true;
+  const CommandSerial serial = known->second;
+  Record* const record = running(serial);
+  if (record == nullptr || record->processor != processor || record->state != State::kSent) return true;
+  if (isOlder(status.header.stamp, record->sent_at, record->skew)) return true;
+  record->last_report = ros::SteadyTime::now();
+  record->silence.clear();
+  if (status.status == CommandStatus::RUNNING || (status.status == CommandStatus::FINISHED && !rules_.may_finish)) {
+    record->said = status.message;
+    say(serial, record);
+    return true;
   }
-  change(&record, reported);
+  CommandStatus end = status;
+  if (status.status == CommandStatus::ERROR && status.error_code == CommandStatus::OK) {
+    end.error_code = CommandStatus::REFUSED_BY_VEHICLE;
+  }
+  change(serial, record, end);
+  return true;
 }
 
 void CommandRegistry::noteSilence(double limit) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const ros::WallTime now = ros::WallTime::now();
-  for (auto& [id, record] : records_) {
-    if (hasEnded(record.status) || !record.was_sent || record.is_silent) continue;
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  for (auto& [serial, record] : records_) {
+    if (record.state != State::kSent || !record.silence.empty()) continue;
     if ((now - record.last_report).toSec() < limit) continue;
-    record.is_silent = true;
-    CommandStatus status = record.status;
-    status.header.stamp = ros::Time::now();
-    status.message = text("nothing was reported about it for more than ", limit,
-                          " s (~planner_silence_timeout); is the planner running? Before that: ", status.message);
-    change(&record, status);
+    record.silence = text("nothing was reported about it for more than ", limit,
+                          " s (~planner_silence_timeout); is the planner running? Before that: ");
+    say(serial, &record);
   }
 }
 
 CommandStatus CommandRegistry::find(std::int64_t command_id) const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const auto known = records_.find(command_id);
-  if (known != records_.end()) return known->second.status;
+  const Record* const known = byId(command_id);
+  if (known != nullptr) return known->status;
   return makeStatus(command_id, CommandStatus::UNKNOWN, ErrorCode::kUnknownId,
-                    text("no command with id ", command_id, " among the last ", kCapacity));
+                    text("no command with id ", command_id, " is running, or among the last ", kCapacity));
 }
 
-CommandRegistry::Record& CommandRegistry::add(std::int64_t command_id, const std::string& processor) {
+std::optional<CommandStatus> CommandRegistry::statusOf(CommandSerial serial) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto known = records_.find(serial);
+  return known == records_.end() ? std::nullopt : std::optional<CommandStatus>(known->second.status);
+}
+
+bool CommandRegistry::isRunning(CommandSerial serial) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto known = records_.find(serial);
+  return known != records_.end() && known->second.state != State::kEnded;
+}
+
+double CommandRegistry::silenceOf(CommandSerial serial) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto known = records_.find(serial);
+  if (known == records_.end() || known->second.state != State::kSent) return 0.0;
+  return (ros::SteadyTime::now() - known->second.last_report).toSec();
+}
+
+CommandRegistry::Record* CommandRegistry::running(CommandSerial serial) {
+  const auto known = records_.find(serial);
+  return known == records_.end() || known->second.state == State::kEnded ? nullptr : &known->second;
+}
+
+const CommandRegistry::Record* CommandRegistry::byId(std::int64_t command_id) const {
+  const auto known = serials_.find(command_id);
+  return known == serials_.end() ? nullptr : &records_.at(known->second);
+}
+
+CommandRegistry::Admission CommandRegistry::letIn(std::int64_t wanted_id, const std::string& processor,
+                                                  std::uint64_t digest) {
+  const AdmittedCommand command = add(wanted_id, processor, digest);
+  say(command.serial, running(command.serial));
+  return {command, std::nullopt, ""};
+}
+
+/// The record of an ended command by the same id gives way.
+AdmittedCommand CommandRegistry::add(std::int64_t command_id, const std::string& processor, std::uint64_t digest) {
   if (command_id <= 0) {
-    while (records_.count(next_id_) != 0) ++next_id_;  // a caller may have chosen it
+    while (serials_.count(next_id_) != 0) ++next_id_;  // a caller may have chosen it
     command_id = next_id_++;
   }
-  const auto known = records_.find(command_id);
-  if (known != records_.end()) {
-    order_.erase(std::find(order_.begin(), order_.end(), command_id));
-    records_.erase(known);
+  const CommandSerial serial = ++last_serial_;
+  Record& record = records_[serial];
+  const auto [known, is_new] = serials_.emplace(command_id, serial);
+  record.skew = is_new ? rules_.clock_skew : 0.0;  // a planner may still report about the earlier command by this id
+  if (!is_new) {
+    ended_.erase(std::find(ended_.begin(), ended_.end(), known->second));
+    records_.erase(known->second);
+    known->second = serial;
   }
-  if (records_.size() >= kCapacity) forgetOldest();
-  order_.push_back(command_id);
-  Record& record = records_[command_id];
   record.processor = processor;
+  record.digest = digest;
+  record.said = "being planned";
   record.status.command_id = command_id;
-  return record;
+  return {serial, command_id, 0};
 }
 
-void CommandRegistry::forgetOldest() {
-  // A running command is kept: its end must still be told.
-  const auto ended = [&](std::int64_t id) { return hasEnded(records_[id].status); };
-  auto oldest = std::find_if(order_.begin(), order_.end(), ended);
-  if (oldest == order_.end()) oldest = order_.begin();
-  records_.erase(*oldest);
-  order_.erase(oldest);
+void CommandRegistry::say(CommandSerial serial, Record* record) {
+  const std::string& message = record->progress.empty() ? record->said : record->progress;
+  change(serial, record,
+         makeStatus(record->status.command_id, CommandStatus::RUNNING, ErrorCode::kOk, record->silence + message));
 }
 
-void CommandRegistry::change(Record* record, const CommandStatus& status) {
+void CommandRegistry::change(CommandSerial serial, Record* record, const CommandStatus& status) {
   const CommandStatus& old = record->status;
   const bool is_news =
       old.status != status.status || old.error_code != status.error_code || old.message != status.message;
+  const std::int64_t id = old.command_id;
   record->status = status;
-  if (is_news && listener_) listener_(status);
+  record->status.command_id = id;
+  const CommandStatus told = record->status;
+  if (hasEnded(status)) {
+    record->state = State::kEnded;
+    ended_.push_back(serial);
+    forgetOldest();
+  }
+  if (is_news && listener_) listener_(serial, told);
+}
+
+void CommandRegistry::forgetOldest() {
+  if (ended_.size() <= kCapacity) return;
+  const CommandSerial oldest = ended_.front();
+  ended_.pop_front();
+  serials_.erase(records_.at(oldest).status.command_id);
+  records_.erase(oldest);
 }
 
 }  // namespace external_command

@@ -1,25 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <ros/console.h>
+#include "external_command/ros/command_service.h"
 
 #include <utility>
 
 #include "external_command/core/text.h"
-#include "external_command/ros/service_command_processor.h"
+#include "external_command/ros/log_lane.h"
+#include "external_command/ros/status.h"
 
 namespace external_command {
 
-CommandService::CommandService(std::string service, unsigned threads)
-    : service_name_(std::move(service)), threads_(threads) {}
-
 CommandService::~CommandService() {
-  if (lane_) ROS_ERROR_STREAM(id() << ": its destructor did not call stopServing(); a late request would crash");
+  if (lane_)
+    logLater(LogLevel::kError, id() + ": its destructor did not call stopServing(); a late request would crash");
   stopServing();
 }
 
 void CommandService::stopServing() {
   server_.shutdown();
-  plans_in_work_.cancelForGood();
-  dry_runs_in_work_.cancelForGood();
+  if (lane_) cancelWork();
   lane_.reset();  // joins
 }
 
@@ -27,38 +25,57 @@ void CommandService::start() {
   parameters().readName("input_command_name", &service_name_);
   log_publisher_ = context().advertise<CommandLogEntry>(context().params().log_topic, false);
   ros::NodeHandle nh(getNodeHandle());
-  nh.setCallbackQueue(context().housekeeping().queue());
+  nh.setCallbackQueue(context().reports().queue());
   // The callback outlives this object by no more than the context, which owns all that it uses.
   const boost::function<void(const CommandStatus&)> report =
-      [&registry = context().registry(), name = id()](const CommandStatus& status) { registry.report(status, name); };
+      [context = &context(), name = id()](const CommandStatus& status) { context->takeReport(status, name); };
   for (const std::string& topic : topicNames("input_command_status_name", "planning/command_status")) {
     report_subscribers_.push_back(nh.subscribe<CommandStatus>(topic, 100, report));
   }
 }
 
 void CommandService::open() {
-  lane_ = std::make_unique<DedicatedLane>(threads_);
-  ros::AdvertiseServiceOptions options = serviceOptions();
-  options.callback_queue = lane_->queue();
-  server_ = getNodeHandle().advertiseService(options);
+  const Threads threads = this->threads();
+  LaneOptions options;
+  options.name = "the lane of " + id();
+  options.threads = threads.count;
+  options.priority = threads.priority;
+  options.stamp = [&gate = context().gate()] { return gate.arrive(); };
+  lane_ = std::make_unique<DedicatedLane>(options);
+  ros::AdvertiseServiceOptions service = serviceOptions();
+  service.callback_queue = lane_->queue();
+  server_ = getNodeHandle().advertiseService(service);
   if (server_) return;
   stopServing();
   throw InternalError(text("service ", getNodeHandle().resolveName(service_name_),
                            " is advertised by this process already; is the same processor loaded twice?"));
 }
 
-CommandStatus CommandService::admitAndExecute(std::int64_t wanted_id, std::uint64_t digest,
-                                              const std::function<CommandStatus(std::int64_t)>& execute) {
-  const CommandRegistry::Admission admission = context().registry().admit(wanted_id, id(), digest);
+ArrivalNumber CommandService::arrivalOfThisCallback() const {
+  const ArrivalNumber stamped = GuardedQueue::stampOfRunningCallback();
+  return stamped > 0 ? stamped : context().gate().arrive();
+}
+
+CommandStatus CommandService::admitAndExecute(const Incoming& request,
+                                              const std::function<CommandStatus(const AdmittedCommand&)>& execute) {
+  CommandRegistry& registry = context().registry();
+  CommandRegistry::Admission admission = request.acts_always ? registry.admitAlways(request.wanted_id, id())
+                                                             : registry.admit(request.wanted_id, id(), request.digest);
   if (admission.running) return *admission.running;
+  admission.command.arrival = request.arrival;
   CommandStatus status;
   try {
-    status = execute(admission.command_id);
+    status = execute(admission.command);
   } catch (...) {
-    status = statusFrom(std::current_exception(), admission.command_id);
+    status = statusFrom(std::current_exception(), admission.command.id);
   }
+  if (!admission.note.empty()) status.message += "; " + admission.note;
   tell(status);
-  if (hasEnded(status)) context().registry().update(status);
+  if (hasEnded(status)) {
+    registry.update({admission.command.serial, status});
+  } else {
+    registry.noteAnswer(admission.command.serial, status.message);
+  }
   return status;
 }
 
@@ -69,14 +86,9 @@ CommandStatus CommandService::refuse(std::int64_t wanted_id) {
 }
 
 void CommandService::tell(const CommandStatus& status) const {
-  // A terminal or a disk that stalls must not delay an answer, or a STOP.
-  context().housekeeping().post([service = service_name_, status] {
-    if (status.status == CommandStatus::ERROR) {
-      ROS_WARN_STREAM(service << " " << status.command_id << " refused: " << status.message);
-    } else {
-      ROS_INFO_STREAM(service << " " << status.command_id << ": " << status.message);
-    }
-  });
+  const bool is_refused = status.status == CommandStatus::ERROR;
+  logLater(is_refused ? LogLevel::kWarn : LogLevel::kInfo,
+           text(service_name_, " ", status.command_id, is_refused ? " refused: " : ": ", status.message));
 }
 
 void CommandService::log(CommandLogEntry entry) const {

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "external_command/ros/dedicated_lane.h"
 
+#include <pthread.h>
+#include <sched.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
 #include <boost/make_shared.hpp>
-#include <chrono>
-#include <deque>
-#include <mutex>
 #include <utility>
 
 namespace external_command {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-constexpr double kIdle = 1.0;  // a thread without work looks after its lane that often [s]
+constexpr double kIdle = 1.0;            // a thread without work looks after its lane that often [s]
+constexpr int kBackgroundNiceness = 10;  // a tenth of the processor's time beside a busy normal thread
 
 class Job : public ros::CallbackInterface {
  public:
@@ -27,44 +29,52 @@ class Job : public ros::CallbackInterface {
   const std::function<void()> job_;
 };
 
-/// Keeps a queue that is no longer used for some time: roscpp's network thread hands a request over by a plain pointer
-/// to the queue, and may still be about to do so when the service is gone.
-void retire(std::unique_ptr<ros::CallbackQueue> queue) {
-  struct Retired {
-    Clock::time_point at;
-    std::unique_ptr<ros::CallbackQueue> queue;
-  };
-  static std::mutex mutex;
-  static auto& all = *new std::deque<Retired>;  // never destroyed: that thread may outlive this library's objects
-  const std::lock_guard<std::mutex> lock(mutex);
-  const Clock::time_point now = Clock::now();
-  while (!all.empty() && now - all.front().at > std::chrono::seconds(10)) all.pop_front();
-  all.push_back({now, std::move(queue)});
+/// Of the calling thread. What is not allowed is left as it is.
+void take(LanePriority priority) {
+  if (priority == LanePriority::kBackground) {
+    setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kBackgroundNiceness);
+  } else if (priority == LanePriority::kUrgent) {
+    sched_param parameters{};
+    parameters.sched_priority = sched_get_priority_min(SCHED_RR);
+    pthread_setschedparam(pthread_self(), SCHED_RR, &parameters);
+  }
 }
 
 }  // namespace
 
-DedicatedLane::DedicatedLane(unsigned threads) : queue_(std::make_unique<ros::CallbackQueue>()) {
-  for (unsigned i = 0; i < threads; ++i) {
-    threads_.emplace_back([this] {
-      while (is_running_) queue_->callOne(ros::WallDuration(kIdle));
+struct DedicatedLane::Queues {
+  explicit Queues(const LaneOptions& options) : guarded(options.name, &queue, options.stamp) {}
+
+  ros::CallbackQueue queue;
+  GuardedQueue guarded;
+};
+
+DedicatedLane::DedicatedLane(LaneOptions options) : queues_(std::make_shared<Queues>(options)) {
+  for (unsigned i = 0; i < options.threads; ++i) {
+    threads_.emplace_back([this, priority = options.priority] {
+      take(priority);
+      while (is_running_) queues_->queue.callOne(ros::WallDuration(kIdle));
     });
   }
 }
 
 DedicatedLane::~DedicatedLane() {
   stop();
-  retire(std::move(queue_));
+  retire(queues_);
 }
 
-void DedicatedLane::post(std::function<void()> job) { queue_->addCallback(boost::make_shared<Job>(std::move(job))); }
+ros::CallbackQueueInterface* DedicatedLane::queue() { return &queues_->guarded; }
+
+void DedicatedLane::post(std::function<void()> job) {
+  queues_->guarded.addCallback(boost::make_shared<Job>(std::move(job)), 0);
+}
 
 void DedicatedLane::stop() {
   is_running_ = false;
-  queue_->disable();  // wakes the threads that wait
+  queues_->queue.disable();  // wakes the threads that wait
   for (std::thread& thread : threads_) thread.join();
   threads_.clear();
-  queue_->clear();
+  queues_->queue.clear();
 }
 
 }  // namespace external_command

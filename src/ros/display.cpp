@@ -23,9 +23,7 @@ void requireAdvertised(bool is_advertised, const std::string& topic, const std::
 }
 
 Display::Display(ros::NodeHandle nh, const DisplayParams& params, std::shared_ptr<const HdMap> map)
-    : params_(params), map_(std::move(map)) {
-  path_publisher_ = nh.advertise<nav_msgs::Path>(params_.path_topic, 1, true);
-  requireAdvertised(path_publisher_, nh.resolveName(params_.path_topic), "nav_msgs/Path");
+    : params_(params), map_(std::move(map)), lane_(LaneOptions{"the display's lane", 1, LanePriority::kBackground}) {
   nh.setCallbackQueue(lane_.queue());
   const ros::SubscriberStatusCallback greet_new = [this](const ros::SingleSubscriberPublisher& s) { greet(s); };
   markers_publisher_ = nh.advertise<visualization_msgs::MarkerArray>(
@@ -63,7 +61,6 @@ void Display::drawNewest() {
     sent.swap(sent_);
     refused.swap(refused_);
   }
-  if (sent) path_publisher_.publish(toNavPath(sent->path, params_.map_frame));
   for (const auto& scene : {sent, refused}) {
     if (!scene) continue;
     markers_publisher_.publish(commandMarkers(*scene, map_.get(), params_.vehicle, params_.map_frame));

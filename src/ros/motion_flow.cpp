@@ -1,10 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <ros/console.h>
+#include "external_command/ros/motion_flow.h"
+
+#include <nav_msgs/Path.h>
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
 
+#include "external_command/RoutingResponse.h"
 #include "external_command/core/text.h"
-#include "external_command/ros/motion_command_processor.h"
+#include "external_command/ros/conversions.h"
+#include "external_command/ros/log_lane.h"
+#include "external_command/ros/prepared_message.h"
+#include "external_command/ros/process_context.h"
+#include "external_command/ros/status.h"
 
 namespace external_command {
 
@@ -19,22 +30,34 @@ void reportRoute(const HdMap& map, const Route& route, PlanReport* report) {
   report->warnings.insert(report->warnings.end(), route.warnings.begin(), route.warnings.end());
 }
 
-}  // namespace
-
-void requireNotMore(std::size_t dry_runs, std::size_t limit) {
-  if (dry_runs <= limit) return;
-  throw NotReady(
-      text(limit, " dry runs are in work at this service, the most there may be; wait for the answer to one"));
+/// Where on the first leg of `path` the vehicle is that has moved by `moved` [m]; nullopt where it is beside it.
+std::optional<std::size_t> placeOnFirstLeg(const Path& path, const Pose2d& vehicle, double moved) {
+  constexpr double kBeside = 1.0;                          // [m]
+  constexpr double kTurned = 0.6;                          // [rad]
+  const double last = path.front().s + 1.5 * moved + 5.0;  // a later stretch may come by here again
+  std::optional<std::size_t> place;
+  double nearest = kBeside;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    if (path[i].s > last || (i > 0 && path[i].direction != path[1].direction)) break;
+    const double distance = (path[i].pose().position() - vehicle.position()).norm();
+    if (distance > nearest || std::abs(angleBetween(path[i].heading, vehicle.heading)) > kTurned) continue;
+    nearest = distance;
+    place = i;
+  }
+  return place;
 }
+
+}  // namespace
 
 MotionFlow::MotionFlow(ProcessContext& context, const std::vector<std::string>& command_topics,
                        const std::string& history_topic)
-    : context_(context),
-      history_publisher_(context.advertise<PlanningCommand>(history_topic, false)),
-      routing_publisher_(context.advertise<RoutingResponse>(context.params().routing_response_topic, true)) {
+    : context_(context) {
   for (const std::string& topic : command_topics) {
-    command_publishers_.push_back(context.advertise<PlanningCommand>(topic, true));
+    publishers_.commands.push_back(context.advertise<PlanningCommand>(topic, true));
   }
+  publishers_.history = context.advertise<PlanningCommand>(history_topic, false);
+  publishers_.routing = context.advertise<RoutingResponse>(context.params().routing_response_topic, true);
+  publishers_.path = context.advertise<nav_msgs::Path>(context.params().path_topic, true);
 }
 
 void MotionFlow::addRoute(const RoutingTask& task, double target_speed, const CancelToken& cancel,
@@ -56,12 +79,35 @@ void MotionFlow::addRoute(const RoutingTask& task, double target_speed, const Ca
   reportRoute(map, *plan->route, &plan->report);
 }
 
-void MotionFlow::complete(std::int64_t command_id, double target_speed, MotionPlan* plan) const {
+void MotionFlow::assemble(double target_speed, bool begins_at_vehicle, MotionPlan* plan) const {
   if (plan->path.empty()) throw InternalError("the command was planned, but its path is empty");
+  const Path& approach = plan->start.approach();
+  if (begins_at_vehicle && !approach.empty()) {
+    const std::size_t planned = plan->path.size();
+    plan->path = join(approach, plan->path);
+    plan->index_shift = static_cast<std::ptrdiff_t>(plan->path.size()) - static_cast<std::ptrdiff_t>(planned);
+    limitSpeeds(context_.params().vehicle, &plan->path);
+  }
   if (plan->path.size() == 1) plan->path.push_back(plan->path.front());  // the vehicle is there; still a path
   if (target_speed > 0.0) {
     for (ReferencePoint& point : plan->path) point.speed = std::min(point.speed, target_speed);
   }
+}
+
+bool MotionFlow::fitToVehicle(const Pose2d& seen_at, MotionPlan* plan) const {
+  const Pose2d now = context_.vehiclePose().get();
+  const double moved = (now.position() - seen_at.position()).norm();
+  if (moved <= context_.params().max_start_shift) return true;
+  const std::optional<std::size_t> place = placeOnFirstLeg(plan->path, now, moved);
+  if (!place) return false;
+  plan->path.erase(plan->path.begin(), plan->path.begin() + static_cast<std::ptrdiff_t>(*place));
+  plan->index_shift -= static_cast<std::ptrdiff_t>(*place);
+  setArcLengths(&plan->path);
+  plan->scene.start = plan->path.front().pose();
+  return true;
+}
+
+void MotionFlow::complete(std::int64_t command_id, double target_speed, MotionPlan* plan) const {
   PlanningCommand& command = plan->command;
   command.header.stamp = ros::Time::now();
   command.header.frame_id = context_.params().map_frame;
@@ -78,16 +124,33 @@ void MotionFlow::complete(std::int64_t command_id, double target_speed, MotionPl
 
 void MotionFlow::send(const CommandGate::Ticket& ticket, MotionPlan&& plan) const {
   const PlanningCommand& command = plan.command;
-  const std::int64_t id = command.command_id;
-  const auto replaced = context_.gate().commit(ticket, [&] {
-    context_.registry().markSent(id, "sent");
-    for (const ros::Publisher& publisher : command_publishers_) publisher.publish(command);
-    history_publisher_.publish(command);
-    if (command.has_lane_follow_command) routing_publisher_.publish(command.lane_follow_command);
+  std::vector<PreparedMessage> messages;
+  for (const ros::Publisher& publisher : publishers_.commands) messages.emplace_back(publisher, command);
+  messages.emplace_back(publishers_.history, command);
+  if (command.has_lane_follow_command) messages.emplace_back(publishers_.routing, command.lane_follow_command);
+  messages.emplace_back(publishers_.path, toNavPath(plan.path, command.header.frame_id));
+
+  const AdmittedCommand& sent = ticket.command();
+  const auto motion =
+      std::make_shared<const SentMotion>(SentMotion{sent, std::make_shared<const Path>(plan.path), plan.index_shift,
+                                                    std::make_shared<MotionTopics>(publishers_, command)});
+
+  const std::lock_guard<std::mutex> in_order(context_.sendingMutex());
+  const auto replaced = context_.gate().commit(ticket, motion, [&] {
+    context_.registry().markSent(sent.serial, "sent");
+    for (const PreparedMessage& message : messages) message.send();
   });
-  if (replaced && *replaced != id) {
+  if (replaced) {
     context_.registry().update(
-        makeStatus(*replaced, CommandStatus::ERROR, ErrorCode::kSuperseded, text("superseded by command ", id)));
+        {replaced->command.serial, makeStatus(replaced->command.id, CommandStatus::ERROR, ErrorCode::kSuperseded,
+                                              text("superseded by command ", sent.id))});
+  }
+  try {
+    if (plan.on_sent) plan.on_sent(*motion);
+    context_.sentMotions()(*motion);
+  } catch (const std::exception& error) {
+    logLater(LogLevel::kError,
+             text("command ", sent.id, " was sent, but what follows from that failed: ", error.what()));
   }
   plan.scene.route = std::move(plan.route);
   plan.scene.path = std::move(plan.path);

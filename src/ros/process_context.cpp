@@ -8,12 +8,14 @@
 #include "external_command/ros/frame_id.h"
 #include "external_command/ros/map_store.h"
 #include "external_command/ros/parameter_check.h"
+#include "external_command/ros/status.h"
 
 namespace external_command {
 
 namespace {
 
 constexpr double kSilenceCheckPeriod = 0.5;  // [s]
+constexpr double kMotionPeriod = 0.1;        // [s]
 
 std::shared_ptr<const Router> routerOf(const ContextParams& params) {
   if (params.map_file.empty()) return nullptr;
@@ -24,6 +26,28 @@ std::shared_ptr<const Router> routerOf(const ContextParams& params) {
 ros::NodeHandle onGlobalQueue(ros::NodeHandle nh) {
   nh.setCallbackQueue(ros::getGlobalCallbackQueue());
   return nh;
+}
+
+MotionWatchParams readMotionWatchParams(const ParameterReader& reader) {
+  MotionWatchParams params;
+  std::string word = "both";
+  reader.read("arrival", &word);
+  const std::map<std::string, ArrivalSource> sources = {
+      {"reported", ArrivalSource::kReported}, {"pose", ArrivalSource::kPose}, {"both", ArrivalSource::kBoth}};
+  const auto source = sources.find(word);
+  if (source == sources.end()) {
+    throw InvalidParameter(
+        text("parameter ", reader.nameOf("arrival"), " is '", word, "'; give reported, pose or both"));
+  }
+  params.arrival = source->second;
+  reader.read("arrival_silence", &params.silence);
+  const ParameterReader tolerance = reader.within("arrival_tolerance");
+  tolerance.read("along", &params.tolerances.along);
+  tolerance.read("across", &params.tolerances.across);
+  tolerance.read("heading", &params.tolerances.heading);
+  tolerance.read("rest", &params.tolerances.rest);
+  tolerance.validate(params);
+  return params;
 }
 
 /// Tells programs that know the map file's coordinates what to subtract from them.
@@ -46,6 +70,12 @@ ContextParams readContextParams(const ParameterReader& reader) {
   reader.readWithin("max_pose_age", 0.01, 3600.0, &params.max_pose_age);
   reader.readWithin("max_future_stamp", 0.0, 3600.0, &params.max_future_stamp);
   reader.readWithin("planner_silence_timeout", 0.1, 86400.0, &params.planner_silence_timeout);
+  reader.readWithin("max_start_shift", 0.0, 100.0, &params.max_start_shift);
+  reader.readWithin("report_clock_skew", 0.0, 60.0, &params.reports.clock_skew);
+  params.motion_watch = readMotionWatchParams(reader);
+  params.reports.may_finish = params.motion_watch.arrival != ArrivalSource::kPose;
+  reader.readWithin("planning_threads", 0, 256, &params.planning.threads);
+  reader.readWithin("planning_queue", 0, 1000, &params.planning.waiting);
   reader.readName("output_command_status_name", &params.status_topic);
   reader.readName("command_log_name", &params.log_topic);
   reader.readName("routing_response_name", &params.routing_response_topic);
@@ -73,20 +103,46 @@ std::shared_ptr<ProcessContext> ProcessContext::acquire(const ros::NodeHandle& n
 ProcessContext::ProcessContext(const ros::NodeHandle& nh, const ros::NodeHandle& parameters)
     : params_(readContextParams(ParameterReader(parameters))),
       nh_(onGlobalQueue(nh)),
+      log_lane_(LogLane::acquire()),
+      planning_slots_(PlanningSlots::acquire(params_.planning)),
       router_(routerOf(params_)),
       vehicle_pose_(params_.map_frame, params_.base_frame, params_.max_pose_age, params_.max_future_stamp),
-      registry_([publisher = advertise<CommandStatus>(params_.status_topic, false)](const CommandStatus& status) {
-        publisher.publish(status);
-      }),
-      display_(nh_, {params_.path_topic, params_.markers_topic, params_.map_frame, params_.base_frame, params_.vehicle},
-               router_ ? router_->mapPtr() : nullptr) {
+      registry_(
+          [this, publisher = advertise<CommandStatus>(params_.status_topic, false)](CommandSerial serial,
+                                                                                    const CommandStatus& status) {
+            publisher.publish(status);
+            // Not here: the gate calls the registry while it is held.
+            if (hasEnded(status)) reports_.post([this, serial] { gate_.retire(serial); });
+          },
+          params_.reports),
+      motion_watch_(params_.motion_watch, params_.vehicle, vehicle_pose_, gate_, registry_),
+      display_(nh_, {params_.markers_topic, params_.map_frame, params_.base_frame, params_.vehicle},
+               router_ ? router_->mapPtr() : nullptr),
+      housekeeping_(LaneOptions{"the housekeeping lane"}),
+      reports_(LaneOptions{"the lane of the vehicle's reports"}) {
   publishOrigin(parameters, router_.get());
   master_watch_->keepParameters(parameters.getNamespace());
-  ros::SteadyTimerOptions options;
-  options.period = ros::WallDuration(kSilenceCheckPeriod);
-  options.callback = [this](const ros::SteadyTimerEvent&) { registry_.noteSilence(params_.planner_silence_timeout); };
-  options.callback_queue = housekeeping_.queue();
-  silence_timer_ = nh_.createSteadyTimer(options);
+  const auto every = [&](double period, const std::function<void()>& job) {
+    ros::SteadyTimerOptions options;
+    options.period = ros::WallDuration(period);
+    options.callback = [job](const ros::SteadyTimerEvent&) { job(); };
+    options.callback_queue = reports_.queue();
+    return nh_.createSteadyTimer(options);
+  };
+  silence_timer_ = every(kSilenceCheckPeriod, [this] { registry_.noteSilence(params_.planner_silence_timeout); });
+  motion_timer_ = every(kMotionPeriod, [this] { motion_watch_.look(); });
+}
+
+void ProcessContext::takeReport(const CommandStatus& report, const std::string& processor) {
+  if (registry_.report(report, processor)) return;
+  logLater(LogLevel::kWarn, odd_reports_,
+           text("a report about command ", report.command_id, " is ignored: its status is ",
+                static_cast<int>(report.status), "; a planner reports RUNNING (1), FINISHED (2) or ERROR (3)"));
+}
+
+void ProcessContext::showMotionAgain() {
+  const auto motion = gate_.motion();
+  if (motion) gate_.showAgain(motion->command.serial, motion_watch_.restOf(*motion));
 }
 
 const Router& ProcessContext::requireRouter() const {

@@ -32,8 +32,8 @@ std::vector<LanePoint> onLanes(const ProcessContext& context, const Pose& pose, 
 
 }  // namespace
 
-RoutingTask beginRoutingTask(const ProcessContext& context, const std::string& frame_id, bool is_start_pose_set,
-                             const std::vector<Pose>& way_points) {
+RoutingTask beginRoutingTask(const ProcessContext& context, const PlanStart& vehicle, const std::string& frame_id,
+                             bool is_start_pose_set, const std::vector<Pose>& way_points) {
   const HdMap& map = context.requireRouter().map();
   const Pose2d frame = context.vehiclePose().ofFrame(frame_id);
   RoutingTask task;
@@ -41,8 +41,8 @@ RoutingTask beginRoutingTask(const ProcessContext& context, const std::string& f
   task.request.header.stamp = ros::Time::now();
   task.request.is_start_pose_set = is_start_pose_set;
   if (!is_start_pose_set) {
-    const VehiclePose& vehicle = context.vehiclePose();
-    task.query.starts = LaneWayTool(map, context.params().lane_way).fromVehicle(vehicle.get(), vehicle.height());
+    task.query.starts =
+        LaneWayTool(map, context.params().lane_way).fromVehicle(vehicle.pose(), context.vehiclePose().height());
     task.request.waypoint.push_back(toMsg(map, task.query.starts.front()));
   }
   for (std::size_t i = 0; i < way_points.size(); ++i) {

@@ -27,6 +27,11 @@ CommandStatus statusFrom(const std::exception_ptr& error, std::int64_t command_i
   }
 }
 
+bool isOlder(const ros::Time& stamp, const ros::Time& sent_at, double skew) {
+  if (stamp.isZero() || ros::Time::now() < sent_at) return false;
+  return stamp.toSec() < sent_at.toSec() - skew;  // a ros::Duration holds 68 years only
+}
+
 bool hasEnded(const CommandStatus& status) { return status.status != CommandStatus::RUNNING; }
 
 }  // namespace external_command

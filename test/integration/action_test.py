@@ -66,10 +66,12 @@ class ActionTest(unittest.TestCase):
     def test_a_stop_of_a_standing_vehicle_is_finished(self):
         support.wait_for_status(self.send(ActionCommand.STOP), CommandStatus.FINISHED)
 
-    def test_a_start_of_a_moving_vehicle_is_finished(self):
+    def test_a_start_of_a_moving_vehicle_waits_for_movement_that_begins_after_it(self):
         self.vehicle.drive_straight()
         self.vehicle.wait_until_moving()
-        support.wait_for_status(self.send(ActionCommand.START), CommandStatus.FINISHED)
+        start = self.send(ActionCommand.START)
+        self.finish(ActionCommand.VIN_REQ)  # by a newer report of the chassis
+        self.assertEqual(support.command_status(start).status, CommandStatus.RUNNING)
 
     def test_pull_over(self):
         self.vehicle.drive_straight()
@@ -127,10 +129,9 @@ class ActionTest(unittest.TestCase):
         self.assert_pads(self.control, already, ControlPad.RESET, ControlPad.START)
         self.vehicle.wait_until_moving()
 
-    def test_a_mode_that_the_chassis_is_in_already_is_done_at_once(self):
+    def test_a_chassis_that_is_in_auto_already_is_not_asked(self):
         already = len(self.control.messages)
-        status = act(ActionCommand.SWITCH_TO_AUTO)
-        self.assertEqual(status.status, CommandStatus.FINISHED, support.describe(status))
+        self.finish(ActionCommand.SWITCH_TO_AUTO)
         self.assertEqual(len(self.control.messages), already)
 
     def test_asks_for_the_vin(self):
@@ -151,7 +152,7 @@ class ActionTest(unittest.TestCase):
         first = act(ActionCommand.PULL_OVER, command_id=1234)
         again = act(ActionCommand.PULL_OVER, command_id=1234)
         self.assertEqual(again.status, CommandStatus.RUNNING, support.describe(again))
-        other = act(ActionCommand.STOP, command_id=1234)
+        other = act(ActionCommand.FOLLOW, command_id=1234)
         self.assertEqual(other.error_code, CommandStatus.DUPLICATE_ID, support.describe(other))
         support.wait_for_status(first.command_id, CommandStatus.FINISHED)
         self.assert_pads(self.planning, already, PlanningPad.PULL_OVER)

@@ -134,10 +134,11 @@ class ManoeuvresTest(unittest.TestCase):
 
     def test_parks_and_leaves_the_space_again(self):
         self.drive("apollo", self.valet("n_out_5"))
+        sent = support.Collector("/apollo/planning/command", PlanningCommand)
         answer = self.call("apollo", "lane_follow", LaneFollow, LaneFollowCommand(end_pose=Pose(x=300.0, y=195.0)))
         self.assertEqual(answer.report.warnings, [])
-        sent = support.Collector("/apollo/planning/command", PlanningCommand)
-        command = sent.wait_for(lambda m: m.command_id == answer.status.command_id, "the command")
+        command = sent.wait_for(lambda m: m.command_id == answer.status.command_id and m.is_motion_command,
+                                "the command")
         x, y, _ = self.vehicle("base_link")
         first = command.path.points[0]
         self.assertLess(math.hypot(first.x - x, first.y - y), 1.0)

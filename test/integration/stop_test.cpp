@@ -16,6 +16,8 @@
 #include "external_command/ControlPad.h"
 #include "external_command/PlanningCommand.h"
 #include "external_command/PlanningPad.h"
+#include "external_command/RoutingRequest.h"
+#include "external_command/RoutingResponse.h"
 #include "support/blocking_nodelets.h"
 
 namespace external_command {
@@ -81,6 +83,8 @@ class Stop : public testing::Test {
   boost::shared_ptr<nodelet::Nodelet> create(const std::string& type) {
     if (type == "test/WorkerBlocker") return blocker_ = boost::make_shared<WorkerBlocker>();
     if (type == "test/BlockingPlanner") return planner_ = boost::make_shared<BlockingPlanner>();
+    if (type == "test/BlockingLaneFollow") return lane_follow_ = boost::make_shared<BlockingLaneFollow>();
+    if (type == "test/ThrowingProcessor") return boost::make_shared<ThrowingProcessor>();
     return classes_.createInstance(type);
   }
 
@@ -92,17 +96,19 @@ class Stop : public testing::Test {
     ASSERT_TRUE(workers_->waitForEntered(workers));
   }
 
-  static CommandStatus send(std::uint8_t action) {
+  static CommandStatus send(std::uint8_t action, std::int64_t command_id = 0) {
     Action call;
     call.request.command.command = action;
+    call.request.command.command_id = command_id;
     EXPECT_TRUE(ros::service::call("external_command/action", call));
     return call.response.status;
   }
 
   /// Calls the planner; the answer comes when its gate is open.
-  static std::future<CommandStatus> plan() {
-    return std::async(std::launch::async, [] {
+  static std::future<CommandStatus> plan(std::int64_t command_id = 0) {
+    return std::async(std::launch::async, [command_id] {
       PathFollow call;
+      call.request.command.command_id = command_id;
       EXPECT_TRUE(ros::service::call(BlockingPlanner::kService, call));
       return call.response.status;
     });
@@ -154,6 +160,7 @@ class Stop : public testing::Test {
   pluginlib::ClassLoader<nodelet::Nodelet> classes_{"nodelet", "nodelet::Nodelet"};
   boost::shared_ptr<WorkerBlocker> blocker_;
   boost::shared_ptr<BlockingPlanner> planner_;
+  boost::shared_ptr<BlockingLaneFollow> lane_follow_;
   std::shared_ptr<TestGate> workers_;
   nodelet::Loader loader_{boost::function<boost::shared_ptr<nodelet::Nodelet>(const std::string&)>(
       [this](const std::string& type) { return create(type); })};
@@ -178,8 +185,6 @@ TEST_F(Stop, IsAsPromptAsTheSwitchToManual) {
   Chassis in_auto;
   in_auto.driving_mode = Chassis::COMPLETE_AUTO_DRIVE;
   chassis.publish(in_auto);
-  while (send(ActionCommand::SWITCH_TO_MANUAL).error_code == CommandStatus::NOT_READY) std::this_thread::yield();
-  ASSERT_TRUE(pads.waitFor(1));
   blockEveryWorker();
   expectPromptness(ActionCommand::SWITCH_TO_MANUAL, ControlPad::RESET, &pads);
 }
@@ -222,6 +227,100 @@ TEST_F(Stop, LetsANewerCommandCancelAnOlderPlan) {
   EXPECT_EQ(older.get().error_code, CommandStatus::SUPERSEDED);
   ASSERT_TRUE(commands.waitFor(1));
   EXPECT_EQ(commands.messages().front().command_id, newer.command_id);
+}
+
+TEST_F(Stop, ActsAgainUnderTheIdOfAStopThatRuns) {
+  Inbox<PlanningPad> pads("planning/pad");
+  const std::int64_t id = 7;
+  EXPECT_EQ(send(ActionCommand::STOP, id).command_id, id);
+  ASSERT_TRUE(pads.waitFor(1));
+  const auto gate = planner_->holdPlans(true);
+  auto planned = plan(8);
+  ASSERT_TRUE(gate->waitForEntered(1));
+  const CommandStatus again = send(ActionCommand::STOP, id);
+  EXPECT_NE(again.command_id, id);
+  EXPECT_NE(again.message.find("command_id 7 belongs to"), std::string::npos) << again.message;
+  EXPECT_TRUE(pads.waitFor(2)) << "it is sent again";
+  EXPECT_EQ(planned.get().error_code, CommandStatus::CANCELLED);
+}
+
+TEST_F(Stop, ActsUnderTheIdOfAMotionCommandThatRuns) {
+  Inbox<PlanningPad> pads("planning/pad");
+  planner_->holdPlans(true)->open();
+  const CommandStatus motion = plan(1).get();
+  ASSERT_EQ(motion.status, CommandStatus::RUNNING) << motion.message;
+  for (const std::uint8_t action : {ActionCommand::STOP, ActionCommand::CLEAR_PLANNING}) {
+    const std::size_t seen = pads.messages().size();
+    const CommandStatus status = send(action, 1);
+    EXPECT_NE(status.status, CommandStatus::ERROR) << status.message;
+    EXPECT_NE(status.command_id, 1);
+    EXPECT_TRUE(pads.waitFor(seen + 1));
+  }
+}
+
+TEST_F(Stop, KeepsWhatWaitsForAThreadFromBeingSent) {
+  Inbox<PlanningCommand> commands("planning/command");
+  const auto gate = planner_->holdPlans(false);
+  std::vector<std::future<CommandStatus>> plans;
+  for (int i = 0; i < 8; ++i) plans.push_back(plan());
+  ASSERT_TRUE(gate->waitForEntered(2));
+  send(ActionCommand::STOP);
+  gate->open();
+  for (auto& planned : plans) EXPECT_EQ(planned.get().status, CommandStatus::ERROR);
+  planner_->holdPlans(true)->open();
+  const CommandStatus next = plan().get();
+  ASSERT_EQ(next.status, CommandStatus::RUNNING) << next.message;
+  ASSERT_TRUE(commands.waitFor(1));
+  EXPECT_EQ(commands.messages().front().command_id, next.command_id);
+}
+
+TEST_F(Stop, KeepsWhatWaitsInTheLineOfLegacyRequestsFromBeingSent) {
+  ASSERT_TRUE(load("lane_follow", "test/BlockingLaneFollow"));
+  ASSERT_TRUE(load("old_routing_adapter", "external_command/OldRoutingAdapter"));
+  Inbox<PlanningCommand> commands("planning/command");
+  Inbox<RoutingResponse> responses("routing_response");
+  ros::NodeHandle nh;
+  ros::Publisher requests = nh.advertise<RoutingRequest>("routing_request", 10);
+  while (requests.getNumSubscribers() == 0) std::this_thread::yield();
+  RoutingRequest request;
+  request.waypoint.resize(1);
+  request.waypoint[0].pose.x = 10.0;
+
+  const auto gate = lane_follow_->holdPlans(false);
+  requests.publish(request);
+  ASSERT_TRUE(gate->waitForEntered(1));
+  requests.publish(request);  // waits for the answer to the first
+  const auto probe = planner_->holdPlans(true);
+  auto marker = plan();  // by the same network thread, so the request is in line by now
+  ASSERT_TRUE(probe->waitForEntered(1));
+  send(ActionCommand::STOP);
+  marker.get();
+  lane_follow_->holdPlans(true)->open();
+  gate->open();
+  ASSERT_TRUE(responses.waitFor(2)) << "both are refused";
+  for (const RoutingResponse& response : responses.messages()) {
+    EXPECT_NE(response.error_code, RoutingResponse::OK) << response.error_message;
+  }
+  EXPECT_TRUE(commands.messages().empty());
+  requests.publish(request);
+  EXPECT_TRUE(commands.waitFor(1)) << "what arrives after the stop is sent";
+}
+
+TEST_F(Stop, GetsThroughThoughCallbacksOfAnotherProcessorThrow) {
+  ASSERT_TRUE(load("thrower", "test/ThrowingProcessor"));
+  ros::NodeHandle nh;
+  ros::Publisher messages = nh.advertise<CommandStatus>(ThrowingProcessor::kTopic, 10);
+  while (messages.getNumSubscribers() == 0) std::this_thread::yield();
+  const std::uint64_t caught = caughtExceptions();
+  CommandStatus message;
+  message.command_id = 1;
+  messages.publish(message);
+  message.command_id = 2;
+  messages.publish(message);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (caughtExceptions() < caught + 5 && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+  EXPECT_GE(caughtExceptions(), caught + 5) << "of both subscribers, and some of the timer";
+  EXPECT_EQ(send(ActionCommand::STOP).status, CommandStatus::RUNNING);
 }
 
 }  // namespace

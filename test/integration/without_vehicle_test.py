@@ -20,8 +20,10 @@ def act(action):
 class PlayedChassis:
     """Reports `mode` 20 times a second. `on_pad(chassis, action)` is called for each ControlPad."""
 
-    def __init__(self, mode, on_pad=None):
+    def __init__(self, mode, on_pad=None, ahead=0.0):
         self.mode = mode
+        self._ahead = ahead  # of the stamps; 0: none are set [s]
+        self._is_paused = threading.Event()
         self._on_pad = on_pad
         self._publisher = rospy.Publisher("canbus/chassis", Chassis, queue_size=10)
         self._pads = rospy.Subscriber("control/pad", ControlPad, self._answer)
@@ -40,13 +42,20 @@ class PlayedChassis:
         self._pads.unregister()
         self._publisher.unregister()
 
+    def pause(self):
+        self._is_paused.set()
+
     def _answer(self, pad):
         if self._on_pad:
             self._on_pad(self, pad.action)
 
     def _report(self):
         while not self._stop.wait(0.05):
-            self._publisher.publish(Chassis(driving_mode=self.mode))
+            message = Chassis(driving_mode=self.mode)
+            if self._ahead > 0.0:
+                message.header.stamp = rospy.Time.now() + rospy.Duration(self._ahead)
+            if not self._is_paused.is_set():
+                self._publisher.publish(message)
 
 
 def obey(chassis, action):
@@ -72,16 +81,48 @@ class WithoutVehicleTest(unittest.TestCase):
         self.assertEqual(answers[-1].status, CommandStatus.RUNNING, support.describe(answers[-1]))
         return answers[-1].command_id
 
-    def test_needs_the_chassis_to_switch_modes(self):
+    def wait_until_chassis_is_not_heard(self):
+        """What was heard of it is too old; the switches that this was tried with have ended."""
+        begun = []
+
         def is_refused():
-            return act(ActionCommand.SWITCH_TO_AUTO).error_code == CommandStatus.NOT_READY
+            begun.append(act(ActionCommand.SWITCH_TO_AUTO))
+            return begun[-1].error_code == CommandStatus.NOT_READY
 
         support.wait_until(is_refused, "what was heard of the chassis is too old")
-        status = act(ActionCommand.SWITCH_TO_MANUAL)
-        self.assertEqual(status.status, CommandStatus.ERROR)
-        self.assertEqual(status.error_code, CommandStatus.NOT_READY)
+        for switch in begun:
+            support.wait_until(lambda: support.command_status(switch.command_id).status != CommandStatus.RUNNING,
+                               "a switch ends")
+
+    def test_needs_the_chassis_to_switch_to_auto(self):
+        self.wait_until_chassis_is_not_heard()
+        already = len(self.pads.messages)
+        status = act(ActionCommand.SWITCH_TO_AUTO)
+        self.assertEqual(status.error_code, CommandStatus.NOT_READY, support.describe(status))
         self.assertIn("chassis", status.message)
-        self.assertEqual(self.pads.messages, [])
+        self.assertEqual(len(self.pads.messages), already)
+
+    def test_switches_to_manual_without_a_chassis_and_says_that_nothing_confirms_it(self):
+        switch = act(ActionCommand.SWITCH_TO_MANUAL)
+        self.assertEqual(switch.status, CommandStatus.RUNNING, support.describe(switch))
+        status = support.wait_for_status(switch.command_id, CommandStatus.ERROR)
+        self.assertIn("not confirmed", status.message)
+        self.assertEqual([pad.action for pad in self.pads.messages], [ControlPad.RESET] * 3)
+
+    def test_takes_a_report_from_before_the_switch_to_manual_for_nothing(self):
+        with PlayedChassis(Chassis.COMPLETE_MANUAL) as chassis:
+            support.wait_for_status(self.start_switch(ActionCommand.SWITCH_TO_MANUAL), CommandStatus.FINISHED)
+            chassis.pause()
+            self.wait_until_chassis_is_not_heard()
+            status = support.wait_for_status(act(ActionCommand.SWITCH_TO_MANUAL).command_id, CommandStatus.ERROR)
+        self.assertIn("not confirmed", status.message)
+
+    def test_a_chassis_that_reports_from_the_future_is_not_heard(self):
+        with PlayedChassis(Chassis.COMPLETE_MANUAL, ahead=30.0):
+            def is_told():
+                return "in the future" in act(ActionCommand.SWITCH_TO_AUTO).message
+
+            support.wait_until(is_told, "the refusal tells that the stamp lies in the future")
 
     def test_asks_three_times_for_a_mode(self):
         with PlayedChassis(Chassis.COMPLETE_AUTO_DRIVE):
@@ -110,6 +151,7 @@ class WithoutVehicleTest(unittest.TestCase):
     def test_a_newer_switch_replaces_a_running_one(self):
         with PlayedChassis(Chassis.COMPLETE_MANUAL) as chassis:
             first = self.start_switch(ActionCommand.SWITCH_TO_AUTO)
+            support.wait_until(lambda: self.pads.messages, "the chassis is asked for auto")
             second = act(ActionCommand.SWITCH_TO_MANUAL).command_id
             status = support.wait_for_status(first, CommandStatus.ERROR)
             self.assertEqual(status.error_code, CommandStatus.SUPERSEDED)

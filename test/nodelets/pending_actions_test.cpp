@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 #include <ros/time.h>
 
+#include <cmath>
+#include <limits>
+
 #include "external_command/ActionCommand.h"
 #include "external_command/ros/status.h"
 
@@ -12,12 +15,20 @@ namespace {
 
 constexpr std::int64_t kMotion = 77;  // the running motion command
 
+/// Serial, id and arrival are all the same.
+AdmittedCommand command(std::int64_t id) {
+  return {static_cast<CommandSerial>(id), id, static_cast<ArrivalNumber>(id)};
+}
+
 class Actions : public testing::Test {
  protected:
-  void SetUp() override { ros::Time::init(); }
+  void SetUp() override {
+    ros::Time::init();
+    motion_.command = {kMotion, kMotion, 0};
+  }
 
   PendingActions::Changes report(std::int64_t id, std::uint8_t status, const std::string& message = "ok") {
-    return pending_.onPlannerStatus(makeStatus(id, status, ErrorCode::kOk, message), kMotion);
+    return pending_.onPlannerStatus(makeStatus(id, status, ErrorCode::kOk, message), &motion_);
   }
   PendingActions::Changes reportFinished(std::int64_t id) { return report(id, CommandStatus::FINISHED); }
 
@@ -28,25 +39,26 @@ class Actions : public testing::Test {
     return pending_.onChassis(message);
   }
 
+  SentMotion motion_;
   PendingActions pending_{PendingActionParams()};
 };
 
 testing::AssertionResult ended(const PendingActions::Changes& changes, std::int64_t id, std::uint8_t status) {
   if (changes.size() != 1) return testing::AssertionFailure() << changes.size() << " statuses changed";
-  if (changes[0].command_id == id && changes[0].status == status) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "command " << changes[0].command_id << ", status "
-                                     << static_cast<int>(changes[0].status) << ": " << changes[0].message;
+  if (changes[0].status.command_id == id && changes[0].status.status == status) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "command " << changes[0].status.command_id << ", status "
+                                     << static_cast<int>(changes[0].status.status) << ": " << changes[0].status.message;
 }
 
 TEST_F(Actions, NeedScenarioAndReportToFinishAStop) {
-  pending_.add(1, ActionCommand::STOP, 0.0);
+  pending_.add(command(1), ActionCommand::STOP, 0.0);
   EXPECT_TRUE(pending_.onScenario("EMERGENCY_STOP").empty());
   EXPECT_TRUE(ended(reportFinished(0), 1, CommandStatus::FINISHED));
   EXPECT_TRUE(reportFinished(0).empty()) << "it has ended";
 }
 
 TEST_F(Actions, TakeScenarioAndReportInEitherOrder) {
-  pending_.add(1, ActionCommand::PULL_OVER, 0.0);
+  pending_.add(command(1), ActionCommand::PULL_OVER, 0.0);
   EXPECT_TRUE(reportFinished(0).empty());
   EXPECT_TRUE(pending_.onScenario("EMERGENCY_STOP").empty()) << "another action's";
   EXPECT_TRUE(ended(pending_.onScenario("EMERGENCY_PULL_OVER"), 1, CommandStatus::FINISHED));
@@ -55,7 +67,7 @@ TEST_F(Actions, TakeScenarioAndReportInEitherOrder) {
 TEST_F(Actions, TakeReportsAboutAStopUnderItsOwnAndTheMotionCommandsId) {
   pending_.onScenario("EMERGENCY_STOP");
   for (const std::int64_t id : {std::int64_t{1}, kMotion}) {
-    pending_.add(1, ActionCommand::STOP, 0.0);
+    pending_.add(command(1), ActionCommand::STOP, 0.0);
     EXPECT_TRUE(reportFinished(2).empty()) << "somebody else's";
     EXPECT_TRUE(report(id, CommandStatus::RUNNING).empty());
     EXPECT_TRUE(ended(reportFinished(id), 1, CommandStatus::FINISHED));
@@ -63,52 +75,91 @@ TEST_F(Actions, TakeReportsAboutAStopUnderItsOwnAndTheMotionCommandsId) {
 }
 
 TEST_F(Actions, DoNotEndAStopWithAnErrorOfTheMotionCommand) {
-  pending_.add(1, ActionCommand::STOP, 0.0);
+  pending_.add(command(1), ActionCommand::STOP, 0.0);
   EXPECT_TRUE(report(kMotion, CommandStatus::ERROR).empty());
   EXPECT_TRUE(ended(report(1, CommandStatus::ERROR, "no brakes"), 1, CommandStatus::ERROR));
 }
 
 TEST_F(Actions, DoNotTakeTheAcknowledgementOfAnotherActionForTheEndOfAStop) {
-  pending_.add(1, ActionCommand::CHANGE_LEFT, 0.0);
-  pending_.add(2, ActionCommand::STOP, 0.0);
+  pending_.add(command(1), ActionCommand::CHANGE_LEFT, 0.0);
+  pending_.add(command(2), ActionCommand::STOP, 0.0);
   EXPECT_TRUE(ended(reportFinished(0), 1, CommandStatus::FINISHED));
   EXPECT_TRUE(pending_.onScenario("EMERGENCY_STOP").empty()) << "it is still braking";
   EXPECT_TRUE(ended(reportFinished(0), 2, CommandStatus::FINISHED));
 }
 
 TEST_F(Actions, EndWhatThePlannerTakesNoteOfByReportOrScenario) {
-  pending_.add(1, ActionCommand::CHANGE_LEFT, 0.0);
+  pending_.add(command(1), ActionCommand::CHANGE_LEFT, 0.0);
   EXPECT_TRUE(ended(reportFinished(1), 1, CommandStatus::FINISHED));
-  pending_.add(2, ActionCommand::ENTER_MISSION, 0.0);
+  pending_.add(command(2), ActionCommand::ENTER_MISSION, 0.0);
   EXPECT_TRUE(pending_.onScenario("CHANGE_LEFT").empty());
   EXPECT_TRUE(ended(pending_.onScenario("ENTER_MISSION"), 2, CommandStatus::FINISHED));
-  pending_.add(3, ActionCommand::CHANGE_RIGHT, 0.0);
+  pending_.add(command(3), ActionCommand::CHANGE_RIGHT, 0.0);
   EXPECT_TRUE(reportFinished(kMotion).empty());
   const auto changes = report(0, CommandStatus::ERROR, "no lane there");
   ASSERT_TRUE(ended(changes, 3, CommandStatus::ERROR));
-  EXPECT_EQ(changes[0].error_code, CommandStatus::REFUSED_BY_VEHICLE);
-  EXPECT_EQ(changes[0].message, "no lane there");
+  EXPECT_EQ(changes[0].status.error_code, CommandStatus::REFUSED_BY_VEHICLE);
+  EXPECT_EQ(changes[0].status.message, "no lane there");
 }
 
 TEST_F(Actions, EndAStartWhenTheVehicleMoves) {
-  pending_.add(1, ActionCommand::START, 0.0);
+  pending_.add(command(1), ActionCommand::START, 0.0);
   EXPECT_TRUE(chassis(0.1).empty());
   EXPECT_TRUE(reportFinished(0).empty());
   EXPECT_TRUE(ended(chassis(-0.2), 1, CommandStatus::FINISHED)) << "in reverse it moves as well";
 }
 
+TEST_F(Actions, DoNotTakeAMovementThatBeganBeforeForThatOfAStart) {
+  chassis(3.0);
+  pending_.add(command(1), ActionCommand::START, 0.0);
+  EXPECT_TRUE(chassis(3.0).empty());
+  EXPECT_TRUE(chassis(0.0).empty());
+  EXPECT_TRUE(ended(chassis(0.5), 1, CommandStatus::FINISHED));
+}
+
+TEST_F(Actions, DoNotTakeASpeedThatIsNoneForMovement) {
+  chassis(0.0);
+  pending_.add(command(1), ActionCommand::START, 0.0);
+  EXPECT_TRUE(chassis(std::nan("")).empty());
+  EXPECT_TRUE(chassis(std::numeric_limits<double>::infinity()).empty());
+}
+
+TEST_F(Actions, AreSupersededByAMotionCommandThatArrivedAfterThem) {
+  pending_.add(command(3), ActionCommand::STOP, 0.0);
+  pending_.add(command(4), ActionCommand::PULL_OVER, 0.0);
+  EXPECT_EQ(pending_.onMotionSent(command(2)).size(), 0u) << "it arrived before them";
+  EXPECT_TRUE(ended(pending_.onMotionSent(command(9)), 4, CommandStatus::ERROR));
+  pending_.add(command(10), ActionCommand::CHANGE_LEFT, 0.0);
+  EXPECT_TRUE(pending_.onMotionSent(command(11)).empty()) << "it stops nothing";
+}
+
+TEST_F(Actions, TakeNoReportThatIsOlderThanThem) {
+  pending_.add(command(1), ActionCommand::FOLLOW, 0.0);
+  CommandStatus old = makeStatus(0, CommandStatus::FINISHED, ErrorCode::kOk, "an earlier one");
+  old.header.stamp -= ros::Duration(5.0);
+  EXPECT_TRUE(pending_.onPlannerStatus(old, nullptr).empty());
+  EXPECT_TRUE(ended(reportFinished(0), 1, CommandStatus::FINISHED));
+}
+
+TEST_F(Actions, AreBoundedInNumber) {
+  for (int i = 1; i <= 1000; ++i) EXPECT_TRUE(pending_.add(command(i), ActionCommand::STOP, 0.0).empty());
+  const auto changes = pending_.add(command(1001), ActionCommand::STOP, 0.0);
+  ASSERT_TRUE(ended(changes, 1, CommandStatus::ERROR));
+  EXPECT_EQ(changes[0].status.error_code, CommandStatus::SUPERSEDED);
+}
+
 TEST_F(Actions, EndAVinRequestWhenTheChassisTellsIt) {
-  pending_.add(1, ActionCommand::VIN_REQ, 0.0);
+  pending_.add(command(1), ActionCommand::VIN_REQ, 0.0);
   EXPECT_TRUE(chassis(3.0).empty());
   EXPECT_TRUE(report(0, CommandStatus::ERROR).empty()) << "not the planner's business";
   const auto changes = chassis(0.0, "LV123");
   ASSERT_TRUE(ended(changes, 1, CommandStatus::FINISHED));
-  EXPECT_EQ(changes[0].message, "vin LV123");
+  EXPECT_EQ(changes[0].status.message, "vin LV123");
 }
 
 TEST_F(Actions, BecomeUnknownWhenNothingShowsTheirEnd) {
-  pending_.add(1, ActionCommand::FOLLOW, 100.0);
-  pending_.add(2, ActionCommand::STOP, 100.0);
+  pending_.add(command(1), ActionCommand::FOLLOW, 100.0);
+  pending_.add(command(2), ActionCommand::STOP, 100.0);
   EXPECT_TRUE(pending_.onTime(129.9).empty());
   EXPECT_TRUE(ended(pending_.onTime(130.0), 1, CommandStatus::UNKNOWN));
   EXPECT_TRUE(pending_.onTime(219.9).empty());
@@ -116,15 +167,15 @@ TEST_F(Actions, BecomeUnknownWhenNothingShowsTheirEnd) {
 }
 
 TEST_F(Actions, LetTheNewestOfStopPullOverAndStartCount) {
-  EXPECT_TRUE(pending_.add(1, ActionCommand::STOP, 0.0).empty());
-  EXPECT_TRUE(pending_.add(2, ActionCommand::FOLLOW, 0.0).empty());
-  EXPECT_TRUE(pending_.add(3, ActionCommand::STOP, 0.0).empty()) << "the same again: both end together";
-  const auto changes = pending_.add(4, ActionCommand::START, 0.0);
+  EXPECT_TRUE(pending_.add(command(1), ActionCommand::STOP, 0.0).empty());
+  EXPECT_TRUE(pending_.add(command(2), ActionCommand::FOLLOW, 0.0).empty());
+  EXPECT_TRUE(pending_.add(command(3), ActionCommand::STOP, 0.0).empty()) << "the same again: both end together";
+  const auto changes = pending_.add(command(4), ActionCommand::START, 0.0);
   ASSERT_EQ(changes.size(), 2u);
-  EXPECT_EQ(changes[0].command_id, 1);
-  EXPECT_EQ(changes[1].command_id, 3);
-  EXPECT_EQ(changes[0].error_code, CommandStatus::SUPERSEDED);
-  EXPECT_EQ(changes[0].message, "superseded by command 4, START");
+  EXPECT_EQ(changes[0].status.command_id, 1);
+  EXPECT_EQ(changes[1].status.command_id, 3);
+  EXPECT_EQ(changes[0].status.error_code, CommandStatus::SUPERSEDED);
+  EXPECT_EQ(changes[0].status.message, "superseded by command 4, START");
 }
 
 TEST(ActionNames, AreThoseOfTheMessage) {

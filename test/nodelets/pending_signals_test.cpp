@@ -18,6 +18,8 @@ VehicleSignal signals(std::uint8_t turn, std::uint8_t low_beam = VehicleSignal::
   return made;
 }
 
+AdmittedCommand command(std::int64_t id) { return {static_cast<CommandSerial>(id), id, 0}; }
+
 class Signals : public testing::Test {
  protected:
   void SetUp() override { ros::Time::init(); }
@@ -26,37 +28,37 @@ class Signals : public testing::Test {
 };
 
 TEST_F(Signals, AreFinishedWhenTheChassisReportsThemAll) {
-  pending_.add(1, signals(VehicleSignal::TURN_LEFT, VehicleSignal::ON), 0.0);
+  pending_.add(command(1), signals(VehicleSignal::TURN_LEFT, VehicleSignal::ON), 0.0);
   EXPECT_TRUE(pending_.onChassis(signals(VehicleSignal::TURN_LEFT, VehicleSignal::OFF)).empty());
   const auto changes = pending_.onChassis(signals(VehicleSignal::TURN_LEFT, VehicleSignal::ON));
   ASSERT_EQ(changes.size(), 1u);
-  EXPECT_EQ(changes[0].status, CommandStatus::FINISHED);
+  EXPECT_EQ(changes[0].status.status, CommandStatus::FINISHED);
 }
 
 TEST_F(Signals, DoNotLookAtWhatIsKept) {
-  pending_.add(1, signals(VehicleSignal::TURN_KEEP, VehicleSignal::OFF), 0.0);
+  pending_.add(command(1), signals(VehicleSignal::TURN_KEEP, VehicleSignal::OFF), 0.0);
   EXPECT_EQ(pending_.onChassis(signals(VehicleSignal::TURN_HAZARD, VehicleSignal::OFF)).size(), 1u);
 }
 
 TEST_F(Signals, BecomeUnknownWhenTheChassisDoesNotFollow) {
-  pending_.add(1, signals(VehicleSignal::TURN_LEFT), 10.0);
+  pending_.add(command(1), signals(VehicleSignal::TURN_LEFT), 10.0);
   pending_.onChassis(signals(VehicleSignal::TURN_NONE));
   EXPECT_TRUE(pending_.onTime(14.9).empty());
   const auto changes = pending_.onTime(15.0);
   ASSERT_EQ(changes.size(), 1u);
-  EXPECT_EQ(changes[0].status, CommandStatus::UNKNOWN);
-  EXPECT_NE(changes[0].message.find("turn_signal is 1, not 2"), std::string::npos) << changes[0].message;
+  EXPECT_EQ(changes[0].status.status, CommandStatus::UNKNOWN);
+  EXPECT_NE(changes[0].status.message.find("turn_signal is 1, not 2"), std::string::npos) << changes[0].status.message;
 }
 
 TEST_F(Signals, AreSupersededByACommandThatContradicts) {
-  pending_.add(1, signals(VehicleSignal::TURN_LEFT), 0.0);
-  EXPECT_TRUE(pending_.add(2, signals(VehicleSignal::TURN_LEFT, VehicleSignal::ON), 0.0).empty());
-  EXPECT_TRUE(pending_.add(3, signals(VehicleSignal::TURN_KEEP, VehicleSignal::ON), 0.0).empty());
-  const auto changes = pending_.add(4, signals(VehicleSignal::TURN_RIGHT), 0.0);
+  pending_.add(command(1), signals(VehicleSignal::TURN_LEFT), 0.0);
+  EXPECT_TRUE(pending_.add(command(2), signals(VehicleSignal::TURN_LEFT, VehicleSignal::ON), 0.0).empty());
+  EXPECT_TRUE(pending_.add(command(3), signals(VehicleSignal::TURN_KEEP, VehicleSignal::ON), 0.0).empty());
+  const auto changes = pending_.add(command(4), signals(VehicleSignal::TURN_RIGHT), 0.0);
   ASSERT_EQ(changes.size(), 2u);
-  EXPECT_EQ(changes[0].command_id, 1);
-  EXPECT_EQ(changes[1].command_id, 2);
-  EXPECT_EQ(changes[1].error_code, CommandStatus::SUPERSEDED);
+  EXPECT_EQ(changes[0].serial, 1u);
+  EXPECT_EQ(changes[1].serial, 2u);
+  EXPECT_EQ(changes[1].status.error_code, CommandStatus::SUPERSEDED);
 }
 
 TEST_F(Signals, AreCheckedForTheirRanges) {

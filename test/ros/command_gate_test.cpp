@@ -8,73 +8,112 @@ namespace {
 
 class Gate : public testing::Test {
  protected:
-  std::function<void()> publishing() {
-    return [this] { ++published_; };
+  AdmittedCommand arrive(std::int64_t id) { return {++serial_, id, gate_.arrive()}; }
+  CommandGate::Ticket begin(std::int64_t id) { return gate_.begin(arrive(id), CancelSource()); }
+
+  std::shared_ptr<const SentMotion> send(const CommandGate::Ticket& ticket) {
+    auto motion = std::make_shared<SentMotion>();
+    motion->command = ticket.command();
+    motion->path = std::make_shared<const Path>();
+    return gate_.commit(ticket, motion, [this] { ++published_; });
   }
 
+  std::int64_t idUnderWay() const { return gate_.motion() ? gate_.motion()->command.id : 0; }
+
   CommandGate gate_;
+  CommandSerial serial_ = 0;
   int published_ = 0;
 };
 
 TEST_F(Gate, SendsACommandThatNothingStopped) {
-  const auto ticket = gate_.begin(7, gate_.arrive());
-  EXPECT_FALSE(gate_.commit(ticket, publishing()).has_value());
+  EXPECT_EQ(send(begin(7)), nullptr);
   EXPECT_EQ(published_, 1);
-  EXPECT_EQ(gate_.lastSent(), 7);
+  EXPECT_EQ(idUnderWay(), 7);
 }
 
-TEST_F(Gate, TellsWhichCommandIsReplaced) {
-  gate_.commit(gate_.begin(7, gate_.arrive()), publishing());
-  EXPECT_EQ(gate_.commit(gate_.begin(8, gate_.arrive()), publishing()), 7);
+TEST_F(Gate, TellsWhichMotionIsReplacedThoughItHasTheSameId) {
+  send(begin(7));
+  const auto first = gate_.motion()->command.serial;
+  const auto replaced = send(begin(7));
+  ASSERT_NE(replaced, nullptr);
+  EXPECT_EQ(replaced->command.serial, first);
 }
 
 TEST_F(Gate, DoesNotSendAPlanThatEndsAfterAStop) {
-  const auto ticket = gate_.begin(7, gate_.arrive());
-  gate_.stop({});
+  const auto ticket = begin(7);
+  gate_.stop(true, {});
   EXPECT_TRUE(ticket.cancelToken().isCancelled());
-  EXPECT_THROW(gate_.commit(ticket, publishing()), Cancelled);
+  EXPECT_THROW(send(ticket), Cancelled);
   EXPECT_EQ(published_, 0);
 }
 
 TEST_F(Gate, DoesNotBeginARequestThatArrivedBeforeAStop) {
-  const auto arrival = gate_.arrive();
-  gate_.stop({});
-  EXPECT_THROW(gate_.begin(7, arrival), Cancelled);
+  const auto early = arrive(7);
+  gate_.stop(true, {});
+  EXPECT_THROW(gate_.requireNewest(early), Cancelled);
+  EXPECT_THROW(gate_.begin(early, CancelSource()), Cancelled);
 }
 
-TEST_F(Gate, BeginsARequestThatArrivedAfterAStop) {
-  gate_.stop({});
-  EXPECT_NO_THROW(gate_.commit(gate_.begin(7, gate_.arrive()), publishing()));
+TEST_F(Gate, SendsARequestThatArrivedAfterAStop) {
+  gate_.stop(true, {});
+  EXPECT_NO_THROW(send(begin(7)));
   EXPECT_EQ(published_, 1);
 }
 
 TEST_F(Gate, CancelsAnOlderPlanningWhenANewerBegins) {
-  const auto older = gate_.begin(7, gate_.arrive());
-  const auto newer = gate_.begin(8, gate_.arrive());
+  const auto older = begin(7);
+  const auto newer = begin(8);
   EXPECT_TRUE(older.cancelToken().isCancelled());
   EXPECT_FALSE(newer.cancelToken().isCancelled());
-  EXPECT_THROW(gate_.commit(older, publishing()), Superseded);
-  EXPECT_NO_THROW(gate_.commit(newer, publishing()));
+  EXPECT_THROW(send(older), Superseded);
+  EXPECT_NO_THROW(send(newer));
   EXPECT_EQ(published_, 1);
 }
 
-TEST_F(Gate, TellsWhoCancelled) {
-  const auto older = gate_.begin(7, gate_.arrive());
-  const auto newer = gate_.begin(8, gate_.arrive());
-  EXPECT_THROW(gate_.requireCurrent(older), Superseded);
-  EXPECT_NO_THROW(gate_.requireCurrent(newer));
-  gate_.stop({});
-  EXPECT_THROW(gate_.requireCurrent(newer), Cancelled);
+TEST_F(Gate, CountsTheLaterArrivalAsTheNewerHoweverLongEachTakesToBegin) {
+  const auto slow = arrive(7);
+  const auto quick = gate_.begin(arrive(8), CancelSource());
+  EXPECT_THROW(gate_.begin(slow, CancelSource()), Superseded);
+  EXPECT_FALSE(quick.cancelToken().isCancelled());
+  EXPECT_NO_THROW(send(quick));
 }
 
-TEST_F(Gate, TellsWhichCommandAStopFindsRunning) {
-  EXPECT_FALSE(gate_.stop({}).has_value());
-  gate_.commit(gate_.begin(7, gate_.arrive()), publishing());
-  EXPECT_EQ(gate_.stop({}), 7);
+TEST_F(Gate, LetsACommandBeginOnceMoreWithoutCancellingItself) {
+  const auto command = arrive(7);
+  const CancelSource planning;
+  gate_.begin(command, planning);
+  const auto again = gate_.begin(command, planning);
+  EXPECT_FALSE(again.cancelToken().isCancelled());
+  EXPECT_NO_THROW(send(again));
+}
+
+TEST_F(Gate, TellsAStopWhichMotionIsUnderWay) {
+  EXPECT_EQ(gate_.stop(true, {}), nullptr);
+  send(begin(7));
+  ASSERT_NE(gate_.stop(true, {}), nullptr);
+  EXPECT_EQ(idUnderWay(), 7) << "a stop holds it, and does not end it";
+}
+
+TEST_F(Gate, RetiresAMotionButNotTheOneAfterIt) {
+  send(begin(7));
+  const auto first = gate_.motion()->command.serial;
+  send(begin(7));
+  gate_.retire(first);
+  EXPECT_EQ(idUnderWay(), 7) << "the second by that id";
+  gate_.retire(gate_.motion()->command.serial);
+  EXPECT_EQ(gate_.motion(), nullptr);
+}
+
+TEST_F(Gate, KnowsByTheTimeOfDayWhetherItWasStopped) {
+  const ros::WallTime before = ros::WallTime::now();
+  EXPECT_FALSE(gate_.wasStoppedSince(before));
+  gate_.stop(true, {});
+  EXPECT_TRUE(gate_.wasStoppedSince(before));
+  EXPECT_FALSE(gate_.wasStoppedSince(ros::WallTime::now() + ros::WallDuration(1.0)));
 }
 
 TEST_F(Gate, PublishesTheStopItself) {
-  gate_.stop(publishing());
+  gate_.stop(true, [this] { ++published_; });
   EXPECT_EQ(published_, 1);
 }
 

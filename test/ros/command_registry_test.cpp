@@ -15,7 +15,17 @@ constexpr std::uint64_t kDigest = 1;
 
 class Registry : public testing::Test {
  protected:
-  Registry() : registry_([this](const CommandStatus& status) { told_.push_back(status); }) { ros::Time::init(); }
+  Registry() : registry_([this](CommandSerial, const CommandStatus& status) { told_.push_back(status); }) {
+    ros::Time::init();
+  }
+
+  CommandSerial admit(std::int64_t id, const std::string& processor = "lane_follow") {
+    return registry_.admit(id, processor, kDigest).command.serial;
+  }
+  bool update(CommandSerial serial, std::uint8_t status, const std::string& message = "arrived") {
+    return registry_.update({serial, makeStatus(0, status, ErrorCode::kOk, message)});
+  }
+  bool end(CommandSerial serial) { return update(serial, CommandStatus::FINISHED); }
 
   CommandStatus ended(std::int64_t id) { return makeStatus(id, CommandStatus::FINISHED, ErrorCode::kOk, "arrived"); }
 
@@ -26,15 +36,15 @@ class Registry : public testing::Test {
 TEST_F(Registry, GivesFreshPositiveIds) {
   const auto first = registry_.admit(0, "lane_follow", kDigest);
   const auto second = registry_.admit(-3, "lane_follow", kDigest);
-  EXPECT_GT(first.command_id, 0);
-  EXPECT_GT(second.command_id, 0);
-  EXPECT_NE(first.command_id, second.command_id);
+  EXPECT_GT(first.command.id, 0);
+  EXPECT_GT(second.command.id, 0);
+  EXPECT_NE(first.command.id, second.command.id);
 }
 
 TEST_F(Registry, GivesNoFreshIdThatACallerUses) {
   const auto first = registry_.admit(0, "lane_follow", kDigest);
-  registry_.admit(first.command_id + 1, "lane_follow", kDigest);
-  EXPECT_EQ(registry_.admit(0, "lane_follow", kDigest).command_id, first.command_id + 2);
+  registry_.admit(first.command.id + 1, "lane_follow", kDigest);
+  EXPECT_EQ(registry_.admit(0, "lane_follow", kDigest).command.id, first.command.id + 2);
 }
 
 TEST_F(Registry, TakesTheSameCommandAgainAsARetry) {
@@ -51,8 +61,8 @@ TEST_F(Registry, RefusesADifferentCommandUnderARunningId) {
 }
 
 TEST_F(Registry, LetsAnIdBeUsedAgainOnceItsCommandHasEnded) {
-  registry_.admit(5, "lane_follow", kDigest);
-  registry_.update(ended(5));
+  const CommandSerial serial = admit(5, "lane_follow");
+  end(serial);
   const auto again = registry_.admit(5, "lane_follow", kDigest);
   EXPECT_FALSE(again.running.has_value());
   EXPECT_EQ(registry_.find(5).status, CommandStatus::RUNNING);
@@ -77,44 +87,44 @@ TEST_F(Registry, KnowsNothingOfAnIdNeverSeen) {
 }
 
 TEST_F(Registry, CountsOnlyTheFirstEnd) {
-  registry_.admit(5, "lane_follow", kDigest);
-  EXPECT_TRUE(registry_.update(ended(5)));
-  EXPECT_FALSE(registry_.update(makeStatus(5, CommandStatus::ERROR, ErrorCode::kSuperseded, "late")));
+  const CommandSerial serial = admit(5, "lane_follow");
+  EXPECT_TRUE(end(serial));
+  EXPECT_FALSE(update(serial, CommandStatus::ERROR, "late"));
   EXPECT_EQ(registry_.find(5).status, CommandStatus::FINISHED);
 }
 
 TEST_F(Registry, BelievesReportsOnlyAboutCommandsThatWereSent) {
-  registry_.admit(5, "lane_follow", kDigest);
+  const CommandSerial serial = admit(5, "lane_follow");
   registry_.report(ended(5), "lane_follow");
   EXPECT_EQ(registry_.find(5).status, CommandStatus::RUNNING);
-  registry_.markSent(5, "sent");
+  registry_.markSent(serial, "sent");
   registry_.report(ended(5), "lane_follow");
   EXPECT_EQ(registry_.find(5).status, CommandStatus::FINISHED);
 }
 
 TEST_F(Registry, IgnoresReportsOlderThanTheCommandAndThoseForOthers) {
-  registry_.admit(5, "lane_follow", kDigest);
+  const CommandSerial serial = admit(5, "lane_follow");
   CommandStatus old = ended(5);
   old.header.stamp -= ros::Duration(10.0);
-  registry_.markSent(5, "sent");
+  registry_.markSent(serial, "sent");
   registry_.report(old, "lane_follow");
   registry_.report(ended(5), "speed");
   EXPECT_EQ(registry_.find(5).status, CommandStatus::RUNNING);
 }
 
 TEST_F(Registry, GivesAReportedErrorACode) {
-  registry_.admit(5, "lane_follow", kDigest);
-  registry_.markSent(5, "sent");
+  const CommandSerial serial = admit(5, "lane_follow");
+  registry_.markSent(serial, "sent");
   registry_.report(makeStatus(5, CommandStatus::ERROR, ErrorCode::kOk, "wheel lost"), "lane_follow");
   EXPECT_EQ(registry_.find(5).error_code, CommandStatus::REFUSED_BY_VEHICLE);
   EXPECT_EQ(registry_.find(5).message, "wheel lost");
 }
 
 TEST_F(Registry, NotesSilenceOnceAndForgetsItWithTheNextReport) {
-  registry_.admit(5, "lane_follow", kDigest);
+  const CommandSerial serial = admit(5, "lane_follow");
   registry_.noteSilence(0.0);
   EXPECT_EQ(registry_.find(5).message.find("nothing was reported"), std::string::npos) << "not sent yet";
-  registry_.markSent(5, "sent");
+  registry_.markSent(serial, "sent");
   registry_.noteSilence(0.0);
   const std::size_t told = told_.size();
   registry_.noteSilence(0.0);
@@ -125,9 +135,9 @@ TEST_F(Registry, NotesSilenceOnceAndForgetsItWithTheNextReport) {
 }
 
 TEST_F(Registry, LetsAProcessorsOwnMessageStandUntilTheEnd) {
-  registry_.admit(5, "zone_cover", kDigest);
-  registry_.markSent(5, "sent");
-  registry_.update(makeStatus(5, CommandStatus::RUNNING, ErrorCode::kOk, "swath 1 of 9"));
+  const CommandSerial serial = admit(5, "zone_cover");
+  registry_.markSent(serial, "sent");
+  update(serial, CommandStatus::RUNNING, "swath 1 of 9");
   registry_.report(makeStatus(5, CommandStatus::RUNNING, ErrorCode::kOk, "3 m to go"), "zone_cover");
   EXPECT_EQ(registry_.find(5).message, "swath 1 of 9");
   registry_.report(ended(5), "zone_cover");
@@ -137,8 +147,7 @@ TEST_F(Registry, LetsAProcessorsOwnMessageStandUntilTheEnd) {
 TEST_F(Registry, RemembersTheNewestThousandAndNeverForgetsARunningOne) {
   registry_.admit(1, "lane_follow", kDigest);
   for (std::int64_t id = 2; id <= 1200; ++id) {
-    registry_.admit(id, "lane_follow", kDigest);
-    registry_.update(ended(id));
+    end(admit(id));
   }
   EXPECT_EQ(registry_.find(1).status, CommandStatus::RUNNING);
   EXPECT_EQ(registry_.find(2).status, CommandStatus::UNKNOWN);
@@ -146,11 +155,97 @@ TEST_F(Registry, RemembersTheNewestThousandAndNeverForgetsARunningOne) {
   EXPECT_EQ(registry_.find(1200).status, CommandStatus::FINISHED);
 }
 
+TEST_F(Registry, NeverForgetsARunningCommandWhateverElseRuns) {
+  admit(1);
+  for (std::int64_t id = 2; id <= 3000; ++id) admit(id, "action");
+  EXPECT_EQ(registry_.find(1).status, CommandStatus::RUNNING);
+  EXPECT_EQ(registry_.find(3000).status, CommandStatus::RUNNING);
+}
+
+TEST_F(Registry, KeepsApartTwoCommandsByTheSameId) {
+  const CommandSerial first = admit(5);
+  end(first);
+  const CommandSerial second = admit(5);
+  EXPECT_NE(first, second);
+  EXPECT_FALSE(update(first, CommandStatus::ERROR, "late")) << "it has ended, and its id means another one";
+  EXPECT_EQ(registry_.find(5).status, CommandStatus::RUNNING);
+  EXPECT_TRUE(registry_.isRunning(second));
+  EXPECT_FALSE(registry_.statusOf(first).has_value());
+}
+
+TEST_F(Registry, GivesWhatAlwaysActsAFreshIdWhereItsOwnRuns) {
+  admit(5);
+  const auto stop = registry_.admitAlways(5, "action");
+  EXPECT_NE(stop.command.id, 5);
+  EXPECT_NE(stop.note.find("command_id 5 belongs to a command of lane_follow"), std::string::npos) << stop.note;
+  const auto again = registry_.admitAlways(stop.command.id, "action");
+  EXPECT_NE(again.command.id, stop.command.id) << "the same again acts again";
+  EXPECT_FALSE(again.running.has_value());
+}
+
+TEST_F(Registry, LetsWhatAlwaysActsHaveTheIdOfACommandThatHasEnded) {
+  end(admit(5));
+  const auto clear = registry_.admitAlways(5, "action");
+  EXPECT_EQ(clear.command.id, 5);
+  EXPECT_TRUE(clear.note.empty());
+}
+
+TEST_F(Registry, TakesNoteOfNoReportWithoutAProperStatus) {
+  const CommandSerial serial = admit(5);
+  registry_.markSent(serial, "sent");
+  for (const std::uint8_t status : {0, 4, 5, 255}) {
+    EXPECT_FALSE(registry_.report(makeStatus(5, status, ErrorCode::kOk, "odd"), "lane_follow"));
+  }
+  EXPECT_EQ(registry_.find(5).status, CommandStatus::RUNNING);
+  EXPECT_EQ(registry_.find(5).message, "sent");
+}
+
+TEST_F(Registry, BelievesAReportStampedALittleBeforeTheCommandWasSent) {
+  const CommandSerial serial = admit(5);
+  registry_.markSent(serial, "sent");
+  CommandStatus report = ended(5);
+  report.header.stamp -= ros::Duration(0.4);
+  registry_.report(report, "lane_follow");
+  EXPECT_EQ(registry_.find(5).status, CommandStatus::FINISHED);
+}
+
+TEST_F(Registry, DoesNotTakeALateReportAboutAnEarlierCommandByTheSameIdForThisOne) {
+  end(admit(5));
+  registry_.markSent(admit(5), "sent");
+  CommandStatus report = ended(5);
+  report.header.stamp -= ros::Duration(0.1);
+  registry_.report(report, "lane_follow");
+  EXPECT_EQ(registry_.find(5).status, CommandStatus::RUNNING);
+}
+
+TEST_F(Registry, NotesSilenceBesideAProcessorsOwnMessage) {
+  const CommandSerial serial = admit(5, "zone_cover");
+  registry_.markSent(serial, "sent");
+  registry_.noteSilence(0.0);
+  update(serial, CommandStatus::RUNNING, "swath 1 of 9");
+  EXPECT_NE(registry_.find(5).message.find("nothing was reported"), std::string::npos);
+  EXPECT_NE(registry_.find(5).message.find("swath 1 of 9"), std::string::npos);
+  registry_.report(makeStatus(5, CommandStatus::RUNNING, ErrorCode::kOk, "3 m to go"), "zone_cover");
+  EXPECT_EQ(registry_.find(5).message, "swath 1 of 9");
+}
+
+TEST(RegistryByPose, LeavesTheEndToThePoseWhereReportsMayNotTellIt) {
+  ros::Time::init();
+  ReportRules rules;
+  rules.may_finish = false;
+  CommandRegistry registry({}, rules);
+  registry.markSent(registry.admit(5, "lane_follow", kDigest).command.serial, "sent");
+  registry.report(makeStatus(5, CommandStatus::FINISHED, ErrorCode::kOk, "arrived"), "lane_follow");
+  EXPECT_EQ(registry.find(5).status, CommandStatus::RUNNING);
+  registry.report(makeStatus(5, CommandStatus::ERROR, ErrorCode::kOk, "wheel lost"), "lane_follow");
+  EXPECT_EQ(registry.find(5).status, CommandStatus::ERROR);
+}
+
 TEST_F(Registry, TellsEveryChangeAndOnlyChanges) {
-  registry_.admit(5, "lane_follow", kDigest);
-  registry_.markSent(5, "sent");
+  const CommandSerial serial = admit(5, "lane_follow");
+  registry_.markSent(serial, "sent");
   registry_.report(makeStatus(5, CommandStatus::RUNNING, ErrorCode::kOk, "sent"), "lane_follow");
-  registry_.update(ended(5));
+  end(serial);
   ASSERT_EQ(told_.size(), 3u);
   EXPECT_EQ(told_[0].message, "being planned");
   EXPECT_EQ(told_[1].message, "sent");

@@ -6,13 +6,14 @@
 #include <atomic>
 #include <chrono>
 #include <future>
+#include <stdexcept>
 #include <thread>
 
 namespace external_command {
 namespace {
 
 TEST(DedicatedLane, RunsAsManyJobsAtOnceAsItHasThreads) {
-  DedicatedLane lane(3);
+  DedicatedLane lane(LaneOptions{"three", 3});
   std::promise<void> last_came;
   const std::shared_future<void> all_came = last_came.get_future().share();
   std::atomic<int> came{0}, waited{0};
@@ -44,6 +45,32 @@ TEST(DedicatedLane, WaitsForARunningJobWhenItStopsAndDropsTheOthers) {
   lane.post([&] { ++dropped_ran; });
   lane.stop();
   EXPECT_EQ(dropped_ran, 0);
+}
+
+TEST(DedicatedLane, GoesOnAfterAJobThatThrows) {
+  DedicatedLane lane;
+  const std::uint64_t caught = caughtExceptions();
+  lane.post([] { throw std::runtime_error("a broken job"); });
+  lane.post([] { throw 7; });
+  std::promise<void> ran;
+  lane.post([&] { ran.set_value(); });
+  ASSERT_EQ(ran.get_future().wait_for(std::chrono::seconds(10)), std::future_status::ready);
+  EXPECT_EQ(caughtExceptions(), caught + 2);
+}
+
+TEST(DedicatedLane, TellsAJobWhatTheStampWasWhenItWasPosted) {
+  std::uint64_t next = 0;
+  LaneOptions options;
+  options.stamp = [&] { return ++next; };
+  DedicatedLane lane(options);
+  std::promise<void> go;
+  std::promise<std::uint64_t> second;
+  lane.post([&] { go.get_future().wait(); });
+  lane.post([&] { second.set_value(GuardedQueue::stampOfRunningCallback()); });
+  next = 100;
+  go.set_value();
+  EXPECT_EQ(second.get_future().get(), 2u) << "though it ran later";
+  EXPECT_EQ(GuardedQueue::stampOfRunningCallback(), 0u) << "no job runs in this thread";
 }
 
 }  // namespace

@@ -10,8 +10,12 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "external_command/LaneFollow.h"
 #include "external_command/PathFollow.h"
 #include "external_command/ros/motion_command_processor.h"
 
@@ -87,12 +91,13 @@ class WorkerBlocker : public nodelet::Nodelet {
 };
 
 /// A motion command whose planning lasts until the test opens its gate.
-class BlockingPlanner : public MotionCommandProcessor<PathFollow> {
+template <class Service>
+class BlockingProcessor : public MotionCommandProcessor<Service> {
  public:
-  static constexpr const char* kService = "test/plan";
+  using typename MotionCommandProcessor<Service>::Command;
 
-  BlockingPlanner() : MotionCommandProcessor<PathFollow>(kService) {}
-  ~BlockingPlanner() override { stopServing(); }
+  explicit BlockingProcessor(const std::string& service) : MotionCommandProcessor<Service>(service) {}
+  ~BlockingProcessor() override { this->stopServing(); }
 
   /// The gate of the plans that begin from now on.
   /// @param polls_cancel  false: a planner that does not notice that it is cancelled.
@@ -104,10 +109,9 @@ class BlockingPlanner : public MotionCommandProcessor<PathFollow> {
   }
 
  private:
-  void check(const PathFollowCommand& /*command*/) const override {}
+  void check(const Command& /*command*/) const override {}
 
-  void processSpecialCommand(const PathFollowCommand& /*command*/, const CancelToken& cancel,
-                             MotionPlan* plan) override {
+  void processSpecialCommand(const Command& /*command*/, const CancelToken& cancel, MotionPlan* plan) override {
     std::unique_lock<std::mutex> lock(mutex_);
     const auto gate = gate_;
     const bool polls_cancel = polls_cancel_;
@@ -122,6 +126,39 @@ class BlockingPlanner : public MotionCommandProcessor<PathFollow> {
   std::mutex mutex_;
   std::shared_ptr<TestGate> gate_ = std::make_shared<TestGate>();
   bool polls_cancel_ = true;
+};
+
+class BlockingPlanner : public BlockingProcessor<PathFollow> {
+ public:
+  static constexpr const char* kService = "test/plan";
+  BlockingPlanner() : BlockingProcessor<PathFollow>(kService) {}
+};
+
+/// In place of the one of this package.
+class BlockingLaneFollow : public BlockingProcessor<LaneFollow> {
+ public:
+  BlockingLaneFollow() : BlockingProcessor<LaneFollow>("external_command/lane_follow") {}
+};
+
+/// A processor of somebody else's, whose callbacks throw.
+class ThrowingProcessor : public CommandProcessor {
+ public:
+  static constexpr const char* kTopic = "test/throw";
+
+ private:
+  void start() override {
+    const boost::function<void(const CommandStatus&)> on_message = [](const CommandStatus& message) {
+      if (message.command_id == 1) throw std::runtime_error("a fault of a processor of somebody else's");
+      throw 7;
+    };
+    subscribers_.push_back(getNodeHandle().subscribe<CommandStatus>(kTopic, 10, on_message));
+    subscribers_.push_back(getMTNodeHandle().subscribe<CommandStatus>(kTopic, 10, on_message));
+    timer_ = getPrivateNodeHandle().createSteadyTimer(
+        ros::WallDuration(0.01), [](const ros::SteadyTimerEvent&) { throw std::logic_error("a fault in a timer"); });
+  }
+
+  std::vector<ros::Subscriber> subscribers_;
+  ros::SteadyTimer timer_;
 };
 
 }  // namespace external_command

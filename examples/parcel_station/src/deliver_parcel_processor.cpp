@@ -17,9 +17,10 @@ void DeliverParcelProcessor::check(const DeliverParcelCommand& command) const {
   ec::requireNotNegative(command.target_speed, "target_speed");
 }
 
-std::optional<ec::RoutingTask> DeliverParcelProcessor::convert(const DeliverParcelCommand& command) {
+std::optional<ec::RoutingTask> DeliverParcelProcessor::convert(const DeliverParcelCommand& command,
+                                                               const ec::PlanStart& start) {
   const std::string& frame = command.header.frame_id;
-  ec::RoutingTask task = ec::beginRoutingTask(context(), frame, false, {});
+  ec::RoutingTask task = ec::beginRoutingTask(context(), start, frame, false, {});
   ec::setGoal(context(), frame, command.station, "station", &task);
   return task;
 }

@@ -17,7 +17,8 @@ class DeliverParcelProcessor : public external_command::MotionCommandProcessor<D
 
  private:
   void check(const DeliverParcelCommand& command) const override;
-  std::optional<external_command::RoutingTask> convert(const DeliverParcelCommand& command) override;
+  std::optional<external_command::RoutingTask> convert(const DeliverParcelCommand& command,
+                                                       const external_command::PlanStart& start) override;
   void processSpecialCommand(const DeliverParcelCommand& command, const external_command::CancelToken& cancel,
                              external_command::MotionPlan* plan) override;
 };

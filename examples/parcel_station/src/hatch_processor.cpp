@@ -21,7 +21,7 @@ void HatchProcessor::check(const HatchCommand& command) const {
   ec::requireWithin(command.compartment, 1, compartments_, "compartment");
 }
 
-ec::CommandStatus HatchProcessor::execute(const HatchCommand& command, const ec::CommandGate::Arrival& /*arrival*/,
+ec::CommandStatus HatchProcessor::execute(const HatchCommand& command, const ec::AdmittedCommand& /*admitted*/,
                                           HatchResponse* /*response*/) {
   publisher_.publish(command);
   return ec::makeStatus(command.command_id, ec::CommandStatus::FINISHED, ec::ErrorCode::kOk,

@@ -18,7 +18,7 @@ class HatchProcessor : public external_command::ServiceCommandProcessor<Hatch> {
   void start() override;
   void check(const HatchCommand& command) const override;
   external_command::CommandStatus execute(const HatchCommand& command,
-                                          const external_command::CommandGate::Arrival& arrival,
+                                          const external_command::AdmittedCommand& admitted,
                                           HatchResponse* response) override;
 
   int compartments_ = 8;

@@ -1,77 +1,105 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
+#include <ros/time.h>
+
+#include <cstddef>
 #include <functional>
+#include <memory>
 #include <mutex>
-#include <optional>
+#include <string>
 
 #include "external_command/core/cancel_token.h"
+#include "external_command/core/path.h"
+#include "external_command/ros/command_identity.h"
+#include "external_command/ros/motion_topics.h"
 
 namespace external_command {
 
-/// Decides which motion command may move the vehicle. One mutex, held for a compare and one publish, never while
-/// planning. Thread-safe.
+/// A motion command as it was sent.
+struct SentMotion {
+  AdmittedCommand command;
+  std::shared_ptr<const Path> path;  ///< never nullptr
+  /// What is to be added to an index of the path that was planned to get that of `path`: a stretch may have been put in
+  /// front of it, or the vehicle may have driven the first of it already (negative then).
+  std::ptrdiff_t index_shift = 0;
+  std::shared_ptr<MotionTopics> topics;  ///< guarded by the gate; may be nullptr
+};
+
+/// Decides which motion command may move the vehicle. One mutex, held for a compare and for handing over what is
+/// serialized already, never while planning. Thread-safe.
 ///
-///   arrive()  when the request comes        -> what was stopped later than this stops it too
-///   begin()   before the long planning      -> cancels the planning of an older command
-///   commit()  to send it                    -> refused where a stop or a newer command came in between
+///   arrive()  when the request comes        -> what is stopped later than this stops it too
+///   begin()   before the long planning      -> cancels the planning of what arrived earlier
+///   commit()  to send it                    -> refused where a stop or a later arrival came in between
+///   retire()  when it has ended             -> it moves the vehicle no more
 class CommandGate {
  public:
-  /// The moment a request came in.
-  class Arrival {
-    friend class CommandGate;
-    std::uint64_t stop_epoch_ = 0;
-  };
-
   /// The right to plan for one command, and to send it once.
   class Ticket {
    public:
+    const AdmittedCommand& command() const { return command_; }
     CancelToken cancelToken() const { return planning_.token(); }
-
-    /// Raises the token; for who has another reason to end the planning than the gate has.
-    const CancelSource& cancelSource() const { return planning_; }
 
    private:
     friend class CommandGate;
-    std::int64_t command_id_ = 0;
-    std::uint64_t epoch_ = 0;
+    AdmittedCommand command_;
     CancelSource planning_;
   };
 
-  Arrival arrive() const;
+  CommandGate();
 
-  /// Cancels the planning in progress of an older command, if there is one.
-  /// @throws Cancelled  a stop came in since `arrival`.
-  Ticket begin(std::int64_t command_id, const Arrival& arrival);
+  /// The next number; every request that came in earlier has a smaller one.
+  ArrivalNumber arrive();
 
-  /// @throws Cancelled   a stop came in since begin().
-  /// @throws Superseded  a newer command began since.
-  void requireCurrent(const Ticket& ticket) const;
+  /// Differs from those of all other gates, of other processes too.
+  const std::string& name() const { return name_; }
+
+  /// True where a stop came in at `time` or later, by the time of day.
+  bool wasStoppedSince(const ros::WallTime& time) const;
+
+  /// @throws Cancelled   a stop came in since the command arrived.
+  /// @throws Superseded  a command that arrived later has begun.
+  void requireNewest(const AdmittedCommand& command) const;
+
+  /// Cancels the planning in progress of an older command, if there is one. A command may begin more than once.
+  /// @param planning  raised when a stop or a later command ends this one's planning.
+  /// @throws  as requireNewest()
+  Ticket begin(const AdmittedCommand& command, const CancelSource& planning);
 
   /// Calls `publish` and makes the ticket's command the one that moves the vehicle.
-  /// @return  the command it replaces, if any.
-  /// @throws  as requireCurrent(); nothing is published.
-  std::optional<std::int64_t> commit(const Ticket& ticket, const std::function<void()>& publish);
+  /// @return  the motion it replaces; nullptr where none was under way.
+  /// @throws  as requireNewest(); nothing is published.
+  std::shared_ptr<const SentMotion> commit(const Ticket& ticket, std::shared_ptr<const SentMotion> motion,
+                                           const std::function<void()>& publish);
 
   /// Cancels the planning in progress; nothing that arrived before is sent any more. Does not wait for it.
-  /// `publish` (may be empty) is called while the gate is held, so that it leaves after every commit before it and
-  /// before every one after it.
-  /// @return  as lastSent(), at that moment.
-  std::optional<std::int64_t> stop(const std::function<void()>& publish);
+  /// `publish` (may be empty) is called while the gate is held, so that what it sends leaves after every commit before
+  /// it and before every one after it.
+  /// @param withdraws  the motion under way, too, so that a planner that starts later does not drive it.
+  /// @return  that motion; nullptr where there is none.
+  std::shared_ptr<const SentMotion> stop(bool withdraws, const std::function<void()>& publish);
 
-  /// The command sent last, if any was.
-  std::optional<std::int64_t> lastSent() const;
+  /// Ends the motion `serial` and withdraws it; does nothing where another one is under way.
+  void retire(CommandSerial serial);
+
+  /// Shows what is left of the motion `serial` again, where a stop withdrew it and it is under way still.
+  void showAgain(CommandSerial serial, const Path& rest);
+
+  /// The motion under way: sent, and not retired since. May be nullptr.
+  std::shared_ptr<const SentMotion> motion() const;
 
  private:
-  void requireCurrentLocked(const Ticket& ticket) const;
+  void requireNewestLocked(const AdmittedCommand& command) const;
 
+  const std::string name_;
   mutable std::mutex mutex_;
-  std::uint64_t stop_epoch_ = 0;  ///< epochs up to this one were stopped
-  std::uint64_t epoch_ = 0;       ///< of the newest ticket
-  std::int64_t newest_id_ = 0;    ///< of the newest ticket
-  CancelSource planning_;         ///< raises the newest ticket's token
-  std::optional<std::int64_t> last_sent_;
+  ArrivalNumber arrivals_ = 0;
+  ArrivalNumber stopped_ = 0;  ///< arrivals up to this one were stopped
+  ros::WallTime last_stop_;    ///< zero: never
+  AdmittedCommand newest_;     ///< that began, by its arrival
+  CancelSource planning_;      ///< raises the newest ticket's token
+  std::shared_ptr<const SentMotion> motion_;
 };
 
 }  // namespace external_command

@@ -17,6 +17,8 @@ namespace external_command {
 /// A derived class may   override start() to read parameters and to prepare, and open() to begin to take requests. What
 ///                       they throw is logged as FATAL with its text and stops the start: the processor is destroyed,
 ///                       whatever it has begun, while messages and requests come in.
+/// What callbacks throw, on the nodelet's queues or a lane, is logged and ends that callback only.
+///
 /// A derived class must  not publish or subscribe before start(); context() and parameters() are there from then on, in
 ///                       any thread.
 class CommandProcessor : public nodelet::Nodelet {
@@ -51,10 +53,12 @@ class CommandProcessor : public nodelet::Nodelet {
 
  private:
   void onInit() final;
-  void keepQueues();
+  void guardQueues();
   void startAll();
 
-  std::vector<std::any> queues_;  // first: they outlive what is bound to them
+  // First: they outlive what is bound to them.
+  std::vector<std::any> nodelet_queues_;
+  std::vector<std::shared_ptr<GuardedQueue>> guarded_queues_;
   std::unique_ptr<const ParameterReader> parameters_;
   std::shared_ptr<ProcessContext> context_;
 };

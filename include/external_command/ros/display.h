@@ -18,7 +18,6 @@ namespace external_command {
 void requireAdvertised(bool is_advertised, const std::string& topic, const std::string& type);
 
 struct DisplayParams {
-  std::string path_topic;
   std::string markers_topic;
   std::string map_frame;
   std::string base_frame;
@@ -35,10 +34,10 @@ class Display {
   Display(ros::NodeHandle nh, const DisplayParams& params, std::shared_ptr<const HdMap> map);
   ~Display() { lane_.stop(); }
 
-  /// Draws `scene` in place of the last command's and publishes its path.
+  /// Draws `scene` in place of the last command's.
   void show(CommandScene scene);
 
-  /// Draws `scene` of a command that was refused; the running command's path stays as it is.
+  /// Draws `scene` of a command that was refused.
   void showRefused(CommandScene scene);
 
  private:
@@ -48,7 +47,7 @@ class Display {
   const DisplayParams params_;
   const std::shared_ptr<const HdMap> map_;
   DedicatedLane lane_;  // before the publisher that is bound to its queue
-  ros::Publisher path_publisher_, markers_publisher_;
+  ros::Publisher markers_publisher_;
   std::mutex mutex_;
   std::optional<CommandScene> sent_, refused_;  ///< still to be drawn
   ros::SteadyTimer timer_;

@@ -3,60 +3,27 @@
 
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
-#include "external_command/PlanReport.h"
-#include "external_command/PlanningCommand.h"
+#include "external_command/core/text.h"
 #include "external_command/ros/checks.h"
 #include "external_command/ros/conversions.h"
+#include "external_command/ros/motion_flow.h"
+#include "external_command/ros/planning_slots.h"
+#include "external_command/ros/plans_in_work.h"
 #include "external_command/ros/routing_task.h"
 #include "external_command/ros/service_command_processor.h"
 
 namespace external_command {
 
-/// What a motion command has become so far.
-struct MotionPlan {
-  std::optional<Route> route;
-  Path path;                ///< the route's reference path, then the planned manoeuvre
-  PlanningCommand command;  ///< what the planning module gets; path and header are filled in at the end
-  PlanReport report;
-  CommandScene scene;  ///< what rviz shows
-};
-
-/// @throws NotReady  `dry_runs` are more than `limit`; none waits, so that each answer comes within the planning
-///                   budget.
-void requireNotMore(std::size_t dry_runs, std::size_t limit);
-
-/// The part of MotionCommandProcessor that does not depend on the service.
-class MotionFlow {
- public:
-  MotionFlow(ProcessContext& context, const std::vector<std::string>& command_topics, const std::string& history_topic);
-
-  /// Searches the route and starts `plan` with its reference path.
-  void addRoute(const RoutingTask& task, double target_speed, const CancelToken& cancel, MotionPlan* plan) const;
-
-  /// Fills what is left of command, report and scene from the path.
-  void complete(std::int64_t command_id, double target_speed, MotionPlan* plan) const;
-
-  /// Sends the plan and shows it, unless a stop or a newer command came in between; ends the command it replaces.
-  /// @throws Cancelled, Superseded
-  void send(const CommandGate::Ticket& ticket, MotionPlan&& plan) const;
-
-  /// The vehicle's limit where `target_speed` exceeds it, with a warning in `report`.
-  double cappedSpeed(double target_speed, PlanReport* report) const;
-
- private:
-  ProcessContext& context_;
-  std::vector<ros::Publisher> command_publishers_;
-  ros::Publisher history_publisher_, routing_publisher_;
-};
-
 /// A command that moves the vehicle: convert() -> route -> processSpecialCommand() -> one PlanningCommand.
 ///
 /// A derived class must  implement check() and processSpecialCommand() or convert(), and call stopServing() in its
 ///                       destructor.
-/// A derived class must poll the cancel token in every long loop: a stop or a newer command raises it.
-/// All hooks run on the processor's lane; no lock is held.
+/// A derived class must  poll the cancel token in every long loop: a stop or a newer command raises it.
+/// A derived class may   override planningTime() and beginsAtVehicle(), and set MotionPlan::on_sent.
+/// All hooks run on the processor's lane, below normal priority; no lock is held.
 template <class Service>
 class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
  public:
@@ -64,18 +31,25 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
   using typename ServiceCommandProcessor<Service>::Response;
 
  protected:
-  /// The newer request must get through while the older one is being planned, and cancels it; and both while as many
-  /// dry runs as may be are in work.
-  explicit MotionCommandProcessor(const std::string& service)
-      : ServiceCommandProcessor<Service>(service, kMaxDryRuns + 2) {}
+  explicit MotionCommandProcessor(const std::string& service) : ServiceCommandProcessor<Service>(service) {}
 
   /// Start, way points, goal and black list on the lanes; nullopt where the command drives no lanes (the default).
+  /// @param start  where the vehicle is taken to be.
   /// @throws InvalidRequest, NotReady, OffMap
-  virtual std::optional<RoutingTask> convert(const Command& /*command*/) { return std::nullopt; }
+  virtual std::optional<RoutingTask> convert(const Command& /*command*/, const PlanStart& /*start*/) {
+    return std::nullopt;
+  }
 
   /// Adds the command's own part: to `plan->command`, and a manoeuvre to `plan->path` by join().
   /// @throws Error  the command is refused; nothing was sent.
   virtual void processSpecialCommand(const Command& /*command*/, const CancelToken& /*cancel*/, MotionPlan* /*plan*/) {}
+
+  /// How long the planning may take; the plan then begins where the vehicle will be [s]. 0 for what is planned at once,
+  /// or begins with a route, which the vehicle may well drive on meanwhile.
+  virtual double planningTime(const Command& /*command*/, const Pose2d& /*vehicle*/) const { return 0.0; }
+
+  /// False for a path that begins where the command says.
+  virtual bool beginsAtVehicle(const Command& command) const { return !startIsGiven(command, 0); }
 
   void start() override {
     ServiceCommandProcessor<Service>::start();
@@ -84,41 +58,101 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
     flow_.emplace(this->context(), this->outputTopics("planning/command"), history);
   }
 
-  CommandStatus execute(const Command& command, const CommandGate::Arrival& arrival, Response* response) final {
-    const ros::SteadyTime begin = ros::SteadyTime::now();
-    MotionPlan plan;
-    const double speed = flow_->cappedSpeed(command.target_speed, &plan.report);
-    if (const auto task = convert(command)) flow_->addRoute(*task, speed, CancelToken(), &plan);
+  void cancelWork() override { plans_in_work_.cancelForGood(); }
 
-    // A dry run must not cancel what is being planned for real, so it takes no ticket.
-    std::optional<CommandGate::Ticket> ticket;
-    if (!command.dry_run) ticket = this->context().gate().begin(command.command_id, arrival);
-    const CancelSource planning = ticket ? ticket->cancelSource() : CancelSource();
-    PlansInWork& in_work = ticket ? this->plansInWork() : this->dryRunsInWork();
-    const PlansInWork::Entry entry(&in_work, planning);
-    if (!ticket) requireNotMore(in_work.size(), kMaxDryRuns);
+  CommandService::Threads threads() const override {
+    return {this->context().planningSlots().threadsPerService(), LanePriority::kBackground};
+  }
+
+  CommandStatus execute(const Command& command, const AdmittedCommand& admitted, Response* response) final {
+    const CancelSource planning;
+    const PlansInWork::Entry entry(&plans_in_work_, planning);
+    const auto slot = this->context().planningSlots().take(
+        command.dry_run ? PlanningSlots::Kind::kDryRun : PlanningSlots::Kind::kCommand, [&] {
+          requireLoaded();
+          if (!command.dry_run) this->context().gate().requireNewest(admitted);
+        });
     try {
-      processSpecialCommand(command, planning.token(), &plan);
+      return command.dry_run ? planDry(command, planning.token(), response)
+                             : planAndSend(command, admitted, planning, response);
     } catch (const Cancelled&) {
-      // Who cancelled it?
-      if (ticket) this->context().gate().requireCurrent(*ticket);
-      if (in_work.areCancelled()) throw Cancelled("its processor was unloaded while it was being planned");
+      requireLoaded();
+      if (!command.dry_run) this->context().gate().requireNewest(admitted);  // tells who cancelled it
       throw;
     }
-    flow_->complete(command.command_id, speed, &plan);
-    plan.report.planning_time = (ros::SteadyTime::now() - begin).toSec();
-    response->report = std::move(plan.report);
-    if (!ticket) {
-      response->path = std::move(plan.command.path);
-      return makeStatus(command.command_id, CommandStatus::FINISHED, ErrorCode::kOk, "dry run: nothing was sent");
-    }
-    flow_->send(*ticket, std::move(plan));
-    return makeStatus(command.command_id, CommandStatus::RUNNING, ErrorCode::kOk, "sent");
   }
 
  private:
-  static constexpr unsigned kMaxDryRuns = 6;
+  CommandStatus planDry(const Command& command, const CancelToken& cancel, Response* response) {
+    const ros::SteadyTime begin = ros::SteadyTime::now();
+    MotionPlan plan(this->context().motionWatch().startFor(0.0));
+    const double speed = flow_->cappedSpeed(command.target_speed, &plan.report);
+    if (const auto task = convert(command, plan.start)) flow_->addRoute(*task, speed, cancel, &plan);
+    processSpecialCommand(command, cancel, &plan);
+    flow_->assemble(speed, false, &plan);
+    flow_->complete(command.command_id, speed, &plan);
+    takeReport(begin, &plan, response);
+    response->path = std::move(plan.command.path);
+    return makeStatus(command.command_id, CommandStatus::FINISHED, ErrorCode::kOk, "dry run: nothing was sent");
+  }
 
+  /// A vehicle that drives on while its plan is made may be elsewhere when it is done: planned once more, then, from
+  /// where the vehicle will be.
+  CommandStatus planAndSend(const Command& command, const AdmittedCommand& admitted, const CancelSource& planning,
+                            Response* response) {
+    const ros::SteadyTime begin = ros::SteadyTime::now();
+    const bool is_at_vehicle = beginsAtVehicle(command);
+    double horizon = 0.0;
+    for (int tries = 1;; ++tries) {
+      const ros::SteadyTime try_begin = ros::SteadyTime::now();
+      const PlanStart here = this->context().motionWatch().startFor(0.0);
+      if (tries == 1 && is_at_vehicle && here.isKnown()) horizon = planningTime(command, here.pose());
+      MotionPlan plan(horizon > 0.0 ? this->context().motionWatch().startFor(horizon) : here);
+      const double speed = flow_->cappedSpeed(command.target_speed, &plan.report);
+      // The route first, a matter of a millisecond: a command without one must not disturb what is being planned.
+      if (const auto task = convert(command, plan.start)) flow_->addRoute(*task, speed, planning.token(), &plan);
+      const auto ticket = this->context().gate().begin(admitted, planning);
+      processSpecialCommand(command, planning.token(), &plan);
+      flow_->assemble(speed, is_at_vehicle, &plan);
+      if (is_at_vehicle && here.isKnown() && !flow_->fitToVehicle(here.pose(), &plan)) {
+        const double took = (ros::SteadyTime::now() - try_begin).toSec();
+        requireAnotherTry(tries, took);
+        horizon = 2.0 * std::max(horizon, took);
+        continue;
+      }
+      flow_->complete(command.command_id, speed, &plan);
+      takeReport(begin, &plan, response);
+      flow_->send(ticket, std::move(plan));
+      return makeStatus(command.command_id, CommandStatus::RUNNING, ErrorCode::kOk, "sent");
+    }
+  }
+
+  static void requireAnotherTry(int tries, double took) {
+    if (tries < 2) return;
+    throw PlanningTimeout(text("the vehicle drove on for the ", took,
+                               " s that the planning took, and is no longer where the path begins (~max_start_shift); "
+                               "the running command goes on: send it again, or stop the vehicle first"));
+  }
+
+  static void takeReport(const ros::SteadyTime& begin, MotionPlan* plan, Response* response) {
+    plan->report.planning_time = (ros::SteadyTime::now() - begin).toSec();
+    response->report = std::move(plan->report);
+  }
+
+  void requireLoaded() const {
+    if (plans_in_work_.areCancelled()) throw Cancelled("its processor was unloaded while it was being planned");
+  }
+
+  template <class Any>
+  static auto startIsGiven(const Any& command, int) -> decltype(static_cast<bool>(command.is_start_pose_set)) {
+    return command.is_start_pose_set;
+  }
+  template <class Any>
+  static bool startIsGiven(const Any& /*command*/, long) {
+    return false;
+  }
+
+  PlansInWork plans_in_work_;
   std::optional<MotionFlow> flow_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <ros/node_handle.h>
 
+#include <boost/signals2/signal.hpp>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -12,8 +13,11 @@
 #include "external_command/ros/command_registry.h"
 #include "external_command/ros/dedicated_lane.h"
 #include "external_command/ros/display.h"
+#include "external_command/ros/log_lane.h"
 #include "external_command/ros/master_watch.h"
+#include "external_command/ros/motion_watch.h"
 #include "external_command/ros/parameters.h"
+#include "external_command/ros/planning_slots.h"
 #include "external_command/ros/vehicle_pose.h"
 
 namespace external_command {
@@ -27,6 +31,11 @@ struct ContextParams {
   double max_pose_age = 1.0;             ///< an older vehicle pose counts as missing [s]
   double max_future_stamp = 0.5;         ///< pose, grid, chassis stamped further ahead of now do not count [s]
   double planner_silence_timeout = 5.0;  ///< a running command's message tells when nothing was reported so long [s]
+  double max_start_shift =
+      0.5;  ///< by which a vehicle may move while its path is planned, and the path stay as it is [m]
+  ReportRules reports;
+  MotionWatchParams motion_watch;
+  PlanningLimits planning;
   std::string status_topic = "external_command/status";
   std::string log_topic = "external_command/log";
   std::string routing_response_topic = "routing_response";
@@ -62,11 +71,30 @@ class ProcessContext {
   const VehiclePose& vehiclePose() const { return vehicle_pose_; }
   CommandGate& gate() { return gate_; }
   CommandRegistry& registry() { return registry_; }
+  MotionWatch& motionWatch() { return motion_watch_; }
+  PlanningSlots& planningSlots() { return *planning_slots_; }
   Display& display() { return display_; }
 
   MasterWatch& masterWatch() { return *master_watch_; }
 
-  /// For short callbacks that need nothing but this context.
+  /// Every motion that was sent, in the order of sending; told with sendingMutex() held.
+  using SentMotions = boost::signals2::signal<void(const SentMotion&)>;
+  SentMotions& sentMotions() { return sent_motions_; }
+
+  /// Held from the commit of a motion until everyone knows of it. A stop does not take it.
+  std::mutex& sendingMutex() { return sending_mutex_; }
+
+  /// Puts route and path of the motion under way back onto their topics, from where the vehicle has come: it goes on
+  /// after a stop. What the planning module got is not sent once more.
+  void showMotionAgain();
+
+  /// A report of the vehicle's about a command of `processor`.
+  void takeReport(const CommandStatus& report, const std::string& processor);
+
+  /// For the vehicle's reports. Nothing that could wait runs there.
+  DedicatedLane& reports() { return reports_; }
+
+  /// For other short callbacks that need nothing but this context.
   DedicatedLane& housekeeping() { return housekeeping_; }
 
   /// One publisher per topic for all processors: several latched ones on a topic would each hand a new subscriber its
@@ -96,13 +124,19 @@ class ProcessContext {
   ros::NodeHandle nh_;
   std::mutex publishers_mutex_;
   std::map<std::string, Shared> publishers_;
+  const std::shared_ptr<LogLane> log_lane_;
+  const std::shared_ptr<PlanningSlots> planning_slots_;
   const std::shared_ptr<const Router> router_;
   const VehiclePose vehicle_pose_;
   CommandGate gate_;
   CommandRegistry registry_;
+  MotionWatch motion_watch_;
+  SentMotions sent_motions_;
+  std::mutex sending_mutex_;
   Display display_;
-  DedicatedLane housekeeping_;  // after all that its callbacks use, before what is bound to its queue
-  ros::SteadyTimer silence_timer_;
+  LogThrottle odd_reports_{10.0};
+  DedicatedLane housekeeping_, reports_;  // after all that their callbacks use, before what is bound to their queues
+  ros::SteadyTimer silence_timer_, motion_timer_;
 };
 
 }  // namespace external_command

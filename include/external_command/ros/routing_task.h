@@ -20,11 +20,11 @@ struct RoutingTask {
 };
 
 /// Start and way points of a command, the goal still missing.
-/// With `is_start_pose_set` the first of `way_points` is the start; otherwise the vehicle's pose is.
+/// With `is_start_pose_set` the first of `way_points` is the start; otherwise `vehicle` is.
 /// @param frame_id  of the way points.
 /// @throws NotReady  no map, or no vehicle pose. @throws OffMap, InvalidRequest
-RoutingTask beginRoutingTask(const ProcessContext& context, const std::string& frame_id, bool is_start_pose_set,
-                             const std::vector<Pose>& way_points);
+RoutingTask beginRoutingTask(const ProcessContext& context, const PlanStart& vehicle, const std::string& frame_id,
+                             bool is_start_pose_set, const std::vector<Pose>& way_points);
 
 /// Lanes, parts of lanes and roads that may not be driven.
 /// @throws InvalidRequest  an unknown id, or a part that is none.

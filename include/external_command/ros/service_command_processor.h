@@ -1,77 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <ros/advertise_service_options.h>
-#include <ros/service_server.h>
-
 #include <functional>
-#include <memory>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "external_command/CommandLogEntry.h"
 #include "external_command/ros/any_message.h"
-#include "external_command/ros/command_processor.h"
-#include "external_command/ros/plans_in_work.h"
+#include "external_command/ros/command_service.h"
+#include "external_command/ros/request_arrival.h"
 #include "external_command/ros/status.h"
 
 namespace external_command {
-
-/// The part of ServiceCommandProcessor that does not depend on the service: admission, statuses, log.
-class CommandService : public CommandProcessor {
- public:
-  ~CommandService() override;
-
- protected:
-  /// @param service  default of the parameter `input_command_name`.
-  /// @param threads  how many requests may run at once.
-  CommandService(std::string service, unsigned threads);
-
-  /// Stops serving, cancels the plans in work and waits for requests in work. Must be called by the destructor of the
-  /// most derived class: a request in work calls its virtual functions.
-  void stopServing();
-
-  /// Reads parameters and subscribes to the vehicle's reports.
-  void start() override;
-
-  /// Advertises the service. @throws InternalError  another processor of this process has that service.
-  void open() override;
-
-  /// What the registry knows this processor as: its nodelet name.
-  const std::string& id() const { return getName(); }
-
-  const std::string& serviceName() const { return service_name_; }
-  DedicatedLane& lane() { return *lane_; }
-  PlansInWork& plansInWork() { return plans_in_work_; }
-  PlansInWork& dryRunsInWork() { return dry_runs_in_work_; }
-
-  /// Called with the request's id (0 or below: none wished) and digest; `execute` is called with the id given to it,
-  /// unless the request is a retry.
-  CommandStatus admitAndExecute(std::int64_t wanted_id, std::uint64_t digest,
-                                const std::function<CommandStatus(std::int64_t)>& execute);
-
-  /// The status of a request refused by an exception that is being handled. Logs it.
-  CommandStatus refuse(std::int64_t wanted_id);
-
-  /// Writes the answer to the log, behind the answer itself.
-  void tell(const CommandStatus& status) const;
-
-  /// True where somebody records the requests and their answers.
-  bool isLogged() const { return log_publisher_.getNumSubscribers() > 0; }
-  void log(CommandLogEntry entry) const;
-
- private:
-  virtual ros::AdvertiseServiceOptions serviceOptions() = 0;
-
-  std::string service_name_;
-  const unsigned threads_;
-  ros::Publisher log_publisher_;
-  std::vector<ros::Subscriber> report_subscribers_;
-  ros::ServiceServer server_;
-  PlansInWork plans_in_work_, dry_runs_in_work_;
-  std::unique_ptr<DedicatedLane> lane_;
-};
 
 /// Equal for two commands that differ in stamp and id only.
 template <class Command>
@@ -87,7 +26,8 @@ std::uint64_t digestOf(Command command) {
 /// itself always succeeds; the answer is in the status.
 ///
 /// A derived class must  implement check() and execute(), and call stopServing() in its destructor.
-/// Both run on the processor's own lane, several requests at once where `threads` says so.
+/// A derived class may   override threads(), actsAlways().
+/// Both run on the processor's own lane, several requests at once where threads() says so.
 template <class Service>
 class ServiceCommandProcessor : public CommandService {
  public:
@@ -96,22 +36,31 @@ class ServiceCommandProcessor : public CommandService {
   using Command = typename Request::_command_type;
 
  protected:
-  explicit ServiceCommandProcessor(const std::string& service, unsigned threads = 1)
-      : CommandService(service, threads) {}
+  explicit ServiceCommandProcessor(const std::string& service) : CommandService(service) {}
 
   /// Looks at the request only: changes nothing, needs no map and no vehicle.
   /// @throws InvalidRequest, StaleRequest  the text names field, value and what was expected.
   virtual void check(const Command& command) const = 0;
 
-  /// Carries the command out. `command.command_id` is positive. The status it returns is the answer; RUNNING leaves the
-  /// command running, anything else ends it.
+  /// True for a command that is carried out whatever its id and however often it comes: never a retry, never a
+  /// duplicate.
+  virtual bool actsAlways(const Command& /*command*/) const { return false; }
+
+  /// Carries the command out. `command.command_id` is positive, the same as `admitted.id`. The status it returns is the
+  /// answer; RUNNING leaves the command running, anything else ends it.
   /// @throws Error  nothing was sent; becomes the status.
-  virtual CommandStatus execute(const Command& command, const CommandGate::Arrival& arrival, Response* response) = 0;
+  virtual CommandStatus execute(const Command& command, const AdmittedCommand& admitted, Response* response) = 0;
 
   /// Does with a command that came another way what the service does: check, admit, execute, record, log.
   /// To be called on the processor's lane.
   Response process(const Command& request, const std::string& caller) {
-    const auto arrival = context().gate().arrive();
+    return process(request, caller, arrivalOfThisCallback());
+  }
+
+ private:
+  using Event = ros::ServiceEvent<Request, Response>;
+
+  Response process(const Command& request, const std::string& caller, ArrivalNumber arrival) {
     const ros::Time begin = ros::Time::now();
     const ros::SteadyTime started = ros::SteadyTime::now();
     Response response;
@@ -128,9 +77,6 @@ class ServiceCommandProcessor : public CommandService {
     return response;
   }
 
- private:
-  using Event = ros::ServiceEvent<Request, Response>;
-
   ros::AdvertiseServiceOptions serviceOptions() final {
     ros::AdvertiseServiceOptions options;
     const boost::function<bool(Event&)> callback = [this](Event& event) { return serve(event); };
@@ -139,17 +85,20 @@ class ServiceCommandProcessor : public CommandService {
   }
 
   bool serve(Event& event) {
-    event.getResponse() = process(event.getRequest().command, event.getCallerName());
+    const ArrivalNumber arrival =
+        earlierArrival(event.getConnectionHeader(), context().gate(), arrivalOfThisCallback());
+    event.getResponse() = process(event.getRequest().command, event.getCallerName(), arrival);
     return true;
   }
 
-  CommandStatus answer(const Command& request, const CommandGate::Arrival& arrival, Response* response) {
+  CommandStatus answer(const Command& request, ArrivalNumber arrival, Response* response) {
     try {
       check(request);
-      return admitAndExecute(request.command_id, digestOf(request), [&](std::int64_t id) {
+      const Incoming incoming{request.command_id, digestOf(request), actsAlways(request), arrival};
+      return admitAndExecute(incoming, [&](const AdmittedCommand& admitted) {
         Command command = request;
-        command.command_id = id;
-        return execute(command, arrival, response);
+        command.command_id = admitted.id;
+        return execute(command, admitted, response);
       });
     } catch (...) {
       return refuse(request.command_id);

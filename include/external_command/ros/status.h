@@ -15,6 +15,11 @@ CommandStatus makeStatus(std::int64_t command_id, std::uint8_t status, ErrorCode
 /// What `error` means for a command. The one place where exceptions become statuses.
 CommandStatus statusFrom(const std::exception_ptr& error, std::int64_t command_id);
 
+/// True where a report with `stamp` was made before `sent_at`, but for clocks that differ by `skew` [s]. A report
+/// without a stamp is as new as it is; where simulated time was set back since, stamps cannot be compared, and all
+/// count.
+bool isOlder(const ros::Time& stamp, const ros::Time& sent_at, double skew);
+
 /// True where the command has come to its end: FINISHED or ERROR, or UNKNOWN after a timeout.
 bool hasEnded(const CommandStatus& status);
 

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ros/advertise_service_options.h>
+#include <ros/service_server.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "external_command/CommandLogEntry.h"
+#include "external_command/ros/command_processor.h"
+
+namespace external_command {
+
+/// The part of ServiceCommandProcessor that does not depend on the service: admission, statuses, log.
+class CommandService : public CommandProcessor {
+ public:
+  ~CommandService() override;
+
+ protected:
+  struct Threads {
+    unsigned count = 1;  ///< how many requests may run at once
+    LanePriority priority = LanePriority::kNormal;
+  };
+
+  /// @param service  default of the parameter `input_command_name`.
+  explicit CommandService(std::string service) : service_name_(std::move(service)) {}
+
+  /// Of the processor's lane. Asked once, after start().
+  virtual Threads threads() const { return {}; }
+
+  /// Stops serving, cancels the plans in work and waits for requests in work. Must be called by the destructor of the
+  /// most derived class: a request in work calls its virtual functions.
+  void stopServing();
+
+  /// Reads parameters and subscribes to the vehicle's reports.
+  void start() override;
+
+  /// Advertises the service. @throws InternalError  another processor of this process has that service.
+  void open() override;
+
+  /// Called by stopServing() while requests may be in work: ends what they do for long.
+  virtual void cancelWork() {}
+
+  /// What the registry knows this processor as: its nodelet name.
+  const std::string& id() const { return getName(); }
+
+  const std::string& serviceName() const { return service_name_; }
+  DedicatedLane& lane() { return *lane_; }
+
+  /// A request as it came in.
+  struct Incoming {
+    std::int64_t wanted_id = 0;  ///< 0 or below: none wished
+    std::uint64_t digest = 0;
+    bool acts_always = false;  ///< carried out whatever its id
+    ArrivalNumber arrival = 0;
+  };
+
+  /// When the request that is being served came in: when the network thread handed it over, however long it waited
+  /// since; or, where it came another way, now.
+  ArrivalNumber arrivalOfThisCallback() const;
+
+  /// `execute` is called unless the request is a retry.
+  CommandStatus admitAndExecute(const Incoming& request,
+                                const std::function<CommandStatus(const AdmittedCommand&)>& execute);
+
+  /// The status of a request refused by an exception that is being handled. Logs it.
+  CommandStatus refuse(std::int64_t wanted_id);
+
+  /// Writes the answer to the log, behind the answer itself.
+  void tell(const CommandStatus& status) const;
+
+  /// True where somebody records the requests and their answers.
+  bool isLogged() const { return log_publisher_.getNumSubscribers() > 0; }
+  void log(CommandLogEntry entry) const;
+
+ private:
+  virtual ros::AdvertiseServiceOptions serviceOptions() = 0;
+
+  std::string service_name_;
+  ros::Publisher log_publisher_;
+  std::vector<ros::Subscriber> report_subscribers_;
+  ros::ServiceServer server_;
+  std::unique_ptr<DedicatedLane> lane_;
+};
+
+}  // namespace external_command

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "external_command/ros/motion_plan.h"
+#include "external_command/ros/routing_task.h"
+
+namespace external_command {
+
+/// The part of MotionCommandProcessor that does not depend on the service.
+class MotionFlow {
+ public:
+  MotionFlow(ProcessContext& context, const std::vector<std::string>& command_topics, const std::string& history_topic);
+
+  /// Searches the route and starts `plan` with its reference path.
+  void addRoute(const RoutingTask& task, double target_speed, const CancelToken& cancel, MotionPlan* plan) const;
+
+  /// Fills what is left of the path.
+  /// @param begins_at_vehicle  the way to plan.start() is put in front of it.
+  void assemble(double target_speed, bool begins_at_vehicle, MotionPlan* plan) const;
+
+  /// Makes the path begin where the vehicle is now, though it may have moved while the path was planned: what it has
+  /// driven of it already is cut off.
+  /// @param seen_at  where the vehicle was when the planning began.
+  /// @return  false where it is not on the path.
+  bool fitToVehicle(const Pose2d& seen_at, MotionPlan* plan) const;
+
+  /// Fills what is left of command, report and scene from the path.
+  void complete(std::int64_t command_id, double target_speed, MotionPlan* plan) const;
+
+  /// Sends the plan and shows it, unless a stop or a newer command came in between; ends the command it replaces.
+  /// @throws Cancelled, Superseded
+  void send(const CommandGate::Ticket& ticket, MotionPlan&& plan) const;
+
+  /// The vehicle's limit where `target_speed` exceeds it, with a warning in `report`.
+  double cappedSpeed(double target_speed, PlanReport* report) const;
+
+ private:
+  ProcessContext& context_;
+  MotionPublishers publishers_;
+};
+
+}  // namespace external_command

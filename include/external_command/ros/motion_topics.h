@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ros/publisher.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "external_command/PlanningCommand.h"
+#include "external_command/RoutingResponse.h"
+#include "external_command/core/path.h"
+
+namespace external_command {
+
+/// Where motion commands are published, latched but for the history: who subscribes later gets the newest.
+struct MotionPublishers {
+  std::vector<ros::Publisher> commands;
+  ros::Publisher history, routing, path;
+};
+
+/// What the topics hold of one motion command for those who subscribe later. Not thread-safe: the gate guards it.
+class MotionTopics {
+ public:
+  /// @param command  as it was sent.
+  MotionTopics(MotionPublishers publishers, const PlanningCommand& command);
+
+  /// Replaces command, path and route by ones that nobody drives. Does so once.
+  void withdraw();
+
+  /// Puts the route back, and `rest` as path, where they were withdrawn.
+  void showAgain(const Path& rest);
+
+ private:
+  const MotionPublishers publishers_;
+  const std::int64_t command_id_;
+  const std::string frame_;
+  const std::optional<RoutingResponse> route_;
+  bool is_withdrawn_ = false;
+};
+
+}  // namespace external_command

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+
+namespace external_command {
+
+struct PlanningLimits {
+  int threads = 0;  ///< that plan at once; 0: as many as cores, and 2 at least
+  int waiting = 6;  ///< commands that may wait for one of them, of all services together, and as many dry runs
+
+  /// @throws InvalidParameter  out of range.
+  void validate() const;
+};
+
+/// Bounds how many requests of all services of one process are planned at once, and how many wait for that: answers
+/// come within the planning budget, or "busy" at once. Threads plan in the lanes of their services, below normal
+/// priority.
+///
+/// Two commands may always be in work: the one that is planned, and the newer one that is about to cancel it. Dry runs
+/// take what is left of the threads (one at least), and wait behind commands. Thread-safe.
+class PlanningSlots {
+ public:
+  enum class Kind { kCommand, kDryRun };
+
+  explicit PlanningSlots(const PlanningLimits& limits);
+
+  /// Those of this process: made with `limits` by who asks first, kept by who holds them.
+  static std::shared_ptr<PlanningSlots> acquire(const PlanningLimits& limits);
+
+  /// One request in work, as long as it lives.
+  class Slot {
+   public:
+    Slot(Slot&& other) noexcept : slots_(other.slots_), kind_(other.kind_) { other.slots_ = nullptr; }
+    Slot(const Slot&) = delete;
+    Slot& operator=(const Slot&) = delete;
+    Slot& operator=(Slot&&) = delete;
+    ~Slot();
+
+   private:
+    friend class PlanningSlots;
+    Slot(PlanningSlots* slots, Kind kind) : slots_(slots), kind_(kind) {}
+
+    PlanningSlots* slots_;
+    Kind kind_;
+  };
+
+  /// Waits for a slot.
+  /// @param check  called now and then while it waits; what it throws ends the waiting.
+  /// @throws NotReady  too many wait already.
+  Slot take(Kind kind, const std::function<void()>& check);
+
+  /// How many threads of one service may be in here at once: one of them is always there to say "busy".
+  unsigned threadsPerService() const;
+
+ private:
+  bool isFree(Kind kind) const;
+  int& waiting(Kind kind) { return kind == Kind::kCommand ? waiting_commands_ : waiting_dry_runs_; }
+
+  const int most_commands_ = 2;
+  const int most_dry_runs_;
+  const int most_waiting_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  int commands_ = 0, dry_runs_ = 0;  ///< in work
+  int waiting_commands_ = 0, waiting_dry_runs_ = 0;
+};
+
+}  // namespace external_command
