@@ -2,6 +2,7 @@
 #include "external_command/coverage/coverage_planner.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 
@@ -19,14 +20,18 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// How far before the place where a line was left it may be begun again, in turning radii.
+constexpr std::array<double, 4> kBack = {0.0, 0.5, 1.0, 2.0};
+
 bool isSame(const Pose2d& a, const Pose2d& b) {
   constexpr double kRounding = 1e-6;
   return (a.position() - b.position()).norm() < kRounding && std::abs(angleBetween(a.heading, b.heading)) < kRounding;
 }
 
-/// The lines to be driven, and the ways to them as planned.
+/// The lines to be driven, in the field's frame, and the ways to them as planned.
 struct Course {
   std::vector<Curve> lines;
+  std::vector<int> laps;                    ///< of each line, as SwathLine::lap
   std::vector<std::optional<Curve>> links;  ///< to each line from the one before; none of an earlier run
 };
 
@@ -35,10 +40,14 @@ Course courseOf(const Field& field, const CoverageProgress& progress) {
   for (const SwathLine& line : progress.lines) {
     const Pose2d start{line.start.x - field.origin().x(), line.start.y - field.origin().y(), line.start.heading};
     course.lines.push_back({start, line.arcs});
+    course.laps.push_back(line.lap);
   }
   if (!course.lines.empty()) return course;
   Plan plan = bestPlan(field);
-  for (const Step& step : plan.steps) course.lines.push_back(plan.works[step.work].curveOf(step.way));
+  for (const Step& step : plan.steps) {
+    course.lines.push_back(plan.works[step.work].curveOf(step.way));
+    course.laps.push_back(plan.works[step.work].lap);
+  }
   course.links = std::move(plan.links);
   if (!course.lines.empty()) return course;
   throw NoPath("no swath fits into the area; is it too narrow for the vehicle to turn in?");
@@ -46,9 +55,10 @@ Course courseOf(const Field& field, const CoverageProgress& progress) {
 
 std::vector<SwathLine> linesOf(const Field& field, const Course& course) {
   std::vector<SwathLine> lines;
-  for (const Curve& line : course.lines) {
+  for (std::size_t i = 0; i < course.lines.size(); ++i) {
+    const Curve& line = course.lines[i];
     const Pose2d start{line.start.x + field.origin().x(), line.start.y + field.origin().y(), line.start.heading};
-    lines.push_back({start, line.arcs});
+    lines.push_back({start, line.arcs, course.laps[i]});
   }
   return lines;
 }
@@ -59,27 +69,28 @@ class PathBuilder {
   PathBuilder(const Field& field, const Course& course, CoverageResult* result)
       : field_(field), course_(course), at_(field.start()), swept_(field.makeGrid()), result_(result) {}
 
-  /// Swath `index` was swept by an earlier run.
-  void count(std::size_t index) { swept_.sweep(course_.lines[index], field_.width()); }
-
-  void drive(std::size_t index) {
+  /// The first `length` [m] of swath `index` were swept by an earlier run.
+  void count(std::size_t index, double length) {
+    if (length <= 0.0) return;
     field_.poll();
-    const Curve& way = course_.lines[index];
-    if (!field_.isBarelyFree(way)) {
+    const Curve done = partOf(course_.lines[index], 0.0, length);
+    sweep(sampleArcs(done.start, done.arcs, field_.params().spacing));
+  }
+
+  /// @param from  what lies before it on the line was swept by an earlier run [m].
+  void drive(std::size_t index, double from) {
+    field_.poll();
+    std::vector<Approach> approaches = approachesOf(index, from);
+    if (approaches.empty()) {
       result_->warnings.push_back(text("swath ", index, " is left out: the footprint would not stay inside"));
       return;
     }
-    if (at_ && !transfer(index)) return;
-    Swath swath;
-    swath.index = index;
-    swath.first = result_->path.empty() ? 0 : result_->path.size() - 1;
-    append(way, true);
-    swath.last = result_->path.size() - 1;
-    swath.length = way.length();
-    swath.covered_area = swept_.sweep(way, field_.width());
-    result_->working_length += swath.length;
-    result_->swaths.push_back(swath);
-    at_ = way.end();
+    for (const Approach& approach : approaches) {
+      if (at_ && !transfer(index, approach.way)) continue;
+      work(index, approach);
+      return;
+    }
+    result_->warnings.push_back(text("swath ", index, " is left out: no way leads there from ", at(*at_)));
   }
 
   void finish() {
@@ -100,30 +111,92 @@ class PathBuilder {
   }
 
  private:
-  bool transfer(std::size_t index) {
-    const std::optional<Curve> link = wayTo(index);
-    if (link && field_.isBarelyFree(*link)) {
-      append(*link, false);
-      return true;
+  /// A place on a line to begin at, and the line from there on.
+  struct Approach {
+    double from = 0.0;  ///< [m]
+    Curve way;
+    double cost = 0.0;  ///< about what it takes to get there, and what is driven twice [m]
+  };
+
+  /// The whole line; or where the rest of it may be begun, the cheapest first: a vehicle that stands beside the line
+  /// by a little gets onto it sooner when it backs up.
+  std::vector<Approach> approachesOf(std::size_t index, double swept) const {
+    const Curve& line = course_.lines[index];
+    std::vector<Approach> approaches;
+    if (swept <= 0.0) {
+      if (field_.isBarelyFree(line)) approaches.push_back({0.0, line, 0.0});
+      return approaches;
     }
-    result_->warnings.push_back(text("swath ", index, " is left out: no way leads there from ", at(*at_)));
-    return false;
+    double last = -1.0;
+    for (const double back : kBack) {
+      const double from = std::max(0.0, swept - back * field_.radius());
+      Approach approach{from, partOf(line, from, line.length()), swept - from};
+      if (from == last || approach.way.arcs.empty() || !field_.isBarelyFree(approach.way)) break;
+      if (at_) approach.cost += costOfWay(*at_, approach.way.start);
+      approaches.push_back(std::move(approach));
+      last = from;
+    }
+    std::stable_sort(approaches.begin(), approaches.end(),
+                     [](const Approach& a, const Approach& b) { return a.cost < b.cost; });
+    return approaches;
+  }
+
+  /// As if nothing were in the way.
+  double costOfWay(const Pose2d& from, const Pose2d& to) const {
+    const double price = field_.params().gear_change_cost;
+    const SteeringCurve way = reedsSheppCurves(from, to, field_.radius(), price).front();
+    return way.cost + (!way.arcs.empty() && way.arcs.back().length < 0.0 ? price : 0.0);
+  }
+
+  void work(std::size_t index, const Approach& approach) {
+    Swath swath;
+    swath.index = index;
+    swath.first = result_->path.empty() ? 0 : result_->path.size() - 1;
+    swath.covered = sweep(append(approach.way, true));
+    swath.last = result_->path.size() - 1;
+    swath.from = approach.from;
+    swath.length = approach.way.length();
+    swath.covered_area = swath.covered.back();
+    result_->working_length += swath.length;
+    result_->swaths.push_back(std::move(swath));
+    at_ = approach.way.end();
+  }
+
+  bool transfer(std::size_t index, const Curve& way) {
+    const std::optional<Curve> link = wayTo(index, way);
+    if (!link || !field_.isBarelyFree(*link)) return false;
+    append(*link, false);
+    return true;
   }
 
   /// As planned, if the vehicle is where the plan takes it to be.
-  std::optional<Curve> wayTo(std::size_t index) const {
+  std::optional<Curve> wayTo(std::size_t index, const Curve& way) const {
     if (index < course_.links.size() && course_.links[index] && isSame(course_.links[index]->start, *at_)) {
       return course_.links[index];
     }
     const Curve* driven = result_->swaths.empty() ? nullptr : &course_.lines[result_->swaths.back().index];
-    return Connector(field_).connect(driven, *at_, course_.lines[index]);
+    return Connector(field_).connect(driven, *at_, way);
   }
 
-  void append(const Curve& curve, bool tool_on) {
+  /// @return  the points along `curve`.
+  Path append(const Curve& curve, bool tool_on) {
     Path points = sampleArcs(curve.start, curve.arcs, field_.params().spacing);
     for (ReferencePoint& point : points) point.tool_on = tool_on;
     Path& path = result_->path;
     path.insert(path.end(), points.begin() + (path.empty() ? 0 : 1), points.end());
+    return points;
+  }
+
+  /// Marks what work along `points` sweeps. @return  what it adds up to each of them [m^2].
+  std::vector<double> sweep(const Path& points) {
+    std::vector<double> covered{0.0};
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      const double driven = points[i].s - points[i - 1].s;
+      const double length = points[i].direction == Direction::kReverse ? -driven : driven;
+      const Curve piece{points[i - 1].pose(), {{length, points[i].kappa}}};
+      covered.push_back(covered.back() + swept_.sweep(piece, field_.width()));
+    }
+    return covered;
   }
 
   void measure() {
@@ -149,22 +222,13 @@ class PathBuilder {
 
 /// What is still to be driven: the lines in their order, those that were skipped at the end.
 std::vector<std::size_t> todoOf(const CoverageProgress& progress, std::size_t total) {
-  enum class State { kTodo, kDone, kSkipped };
-  std::vector<State> states(total, State::kTodo);
-  const auto mark = [&](const std::vector<std::size_t>& indices, State state, const char* name) {
-    for (const std::size_t index : indices) {
-      if (index >= total) {
-        throw InvalidRequest(text(name, " swath ", index, " is not in the plan; its swaths are 0 to ", total - 1));
-      }
-      states[index] = state;
-    }
-  };
-  mark(progress.done, State::kDone, "done");
-  mark(progress.skipped, State::kSkipped, "skipped");
+  std::vector<bool> skipped(total, false);
+  for (const std::size_t index : progress.skipped) skipped[index] = true;
   std::vector<std::size_t> todo;
-  for (const State wanted : {State::kTodo, State::kSkipped}) {
+  for (const bool wanted : {false, true}) {
     for (std::size_t i = 0; i < total; ++i) {
-      if (states[i] == wanted) todo.push_back(i);
+      const bool is_done = !progress.lines.empty() && progress.isDone(i);
+      if (!is_done && skipped[i] == wanted) todo.push_back(i);
     }
   }
   return todo;
@@ -181,16 +245,14 @@ CoveragePlanner::CoveragePlanner(const VehicleParams& vehicle, const CoveragePar
 CoverageResult CoveragePlanner::plan(const CoverageArea& area, const std::optional<Pose2d>& start,
                                      const CoverageProgress& progress, const CancelToken& cancel) const {
   const auto began = Clock::now();
+  requirePlausible(progress, area.outer, vehicle_, params_);
   const Field field(vehicle_, params_, area, start, cancel);
   const Course course = courseOf(field, progress);
-  const std::vector<std::size_t> todo = todoOf(progress, course.lines.size());
   CoverageResult result;
   result.lines = linesOf(field, course);
   PathBuilder builder(field, course, &result);
-  for (std::size_t i = 0; i < course.lines.size(); ++i) {
-    if (std::find(todo.begin(), todo.end(), i) == todo.end()) builder.count(i);
-  }
-  for (const std::size_t index : todo) builder.drive(index);
+  for (std::size_t i = 0; i < progress.swept.size(); ++i) builder.count(i, progress.swept[i]);
+  for (const std::size_t index : todoOf(progress, course.lines.size())) builder.drive(index, progress.sweptOf(index));
   if (result.swaths.empty()) {
     throw NoPath(text("no swath can be reached", start ? text(" from ", at(*start)) : std::string(), "; ",
                       result.warnings.empty() ? "all are done" : result.warnings.front()));

@@ -7,28 +7,13 @@
 #include "area_access.h"
 #include "external_command/core/text.h"
 #include "zone_entry.h"
+#include "zone_resume.h"
 
 namespace external_command {
 
 namespace {
 
-constexpr double kTrackingPeriod = 0.2;  // [s]
-
-bool contains(const std::vector<std::size_t>& indices, std::size_t index) {
-  return std::find(indices.begin(), indices.end(), index) != indices.end();
-}
-
-/// With the point indices of a path that `shift` points were put in front of; the vehicle may have driven some already.
-std::vector<Swath> shifted(std::vector<Swath> swaths, std::ptrdiff_t shift) {
-  const auto moved = [&](std::size_t index) {
-    return static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(index) + shift));
-  };
-  for (Swath& swath : swaths) {
-    swath.first = moved(swath.first);
-    swath.last = moved(swath.last);
-  }
-  return swaths;
-}
+constexpr double kTrackingPeriod = 0.1;  // [s]
 
 }  // namespace
 
@@ -71,7 +56,11 @@ void ZoneCoverCommandProcessor::start() {
   planner_.emplace(getNodeHandle(), parameters(), context());
   coverage_params_ = readCoverageParams(parameters().within("coverage"));
   parameters().readWithin("access_distance", 0.0, 100.0, &access_distance_);
-  parameters().read("progress_folder", &progress_folder_);
+  std::string folder;
+  parameters().read("progress_folder", &folder);
+  folder_ = zoneFolder(folder);
+  removeLeftovers(folder_, getNodeHandle().getNamespace());
+  keeper_.emplace();
 }
 
 void ZoneCoverCommandProcessor::open() {
@@ -175,25 +164,25 @@ void ZoneCoverCommandProcessor::enterZone(const ZoneCoverCommand& command, const
   leaveRouteFor(entries, planner_->regionOf(std::move(parts)), *planner_, cancel, plan);
 }
 
-CoverageProgress ZoneCoverCommandProcessor::progressOf(const ZoneCoverCommand& command, const ZonePlanFile& file) {
+ZonePlanFile ZoneCoverCommandProcessor::fileOf(const ZoneCoverCommand& command, const CoverageArea& zone,
+                                               const CoverageParams& params) const {
+  const std::string& vehicle = getNodeHandle().getNamespace();
+  return {folder_, zoneKey(vehicle, command.zone_cover_area_id, zone, params, context().params().vehicle)};
+}
+
+CoverageProgress ZoneCoverCommandProcessor::progressOf(const ZoneCoverCommand& command, const CoverageArea& zone,
+                                                       const CoverageParams& params, const ZonePlanFile& file) {
   if (!command.resume) return {};
-  std::optional<CoverageProgress> kept = file.read();
-  if (!kept) {
-    throw InvalidRequest(
-        text("resume: no earlier run of this zone is known (", file.path(), "); send the command without resume"));
-  }
-  if (kept->done.size() == kept->lines.size()) {
-    throw InvalidRequest(text("resume: the zone is swept, all ", kept->lines.size(),
+  track();  // so that the last moments of a run that is under way count too
+  std::optional<CoverageProgress> kept = keeper_->unwritten(file.path());
+  if (!kept) kept = readProgress(file, zone, params, context().params().vehicle, command.dry_run);
+  const std::size_t total = kept->lines.size();
+  if (kept->countDone() == total) {
+    throw InvalidRequest(text("resume: the zone is swept, all ", total,
                               " swaths of it; send the command without resume to sweep it again"));
   }
-  for (const std::size_t index : command.skip_swath) {
-    if (index >= kept->lines.size()) {
-      throw InvalidRequest(
-          text("skip_swath ", index, " is not in the plan; its swaths are 0 to ", kept->lines.size() - 1));
-    }
-    if (!contains(kept->done, index) && !contains(kept->skipped, index)) kept->skipped.push_back(index);
-  }
-  return *kept;
+  addSkipped(command.skip_swath, &*kept);
+  return *std::move(kept);
 }
 
 void ZoneCoverCommandProcessor::appendCoverage(const CoverageResult& coverage, MotionPlan* plan) const {
@@ -216,9 +205,8 @@ void ZoneCoverCommandProcessor::processSpecialCommand(const ZoneCoverCommand& co
   if (!plan->path.empty()) enterZone(command, zone, cancel, plan);
   const Pose2d start = plan->path.empty() ? givenStart(command, plan->start) : plan->path.back().pose();
 
-  track();  // so that the file tells of an earlier run's last moments too
-  ZonePlanFile file(progress_folder_, zoneKey(zone, params, context().params().vehicle));
-  CoverageProgress progress = progressOf(command, file);
+  const ZonePlanFile file = fileOf(command, zone, params);
+  CoverageProgress progress = progressOf(command, zone, params, file);
   CoverageResult coverage = planner.plan(zone, start, progress, cancel);
   const std::size_t offset = plan->path.empty() ? 0 : plan->path.size() - 1;  // join() shares the point between both
   appendCoverage(coverage, plan);
@@ -229,64 +217,55 @@ void ZoneCoverCommandProcessor::processSpecialCommand(const ZoneCoverCommand& co
   plan->command.command_type = PlanningCommand::CUSTOM;
   plan->command.custom_command = packAny(command);
   if (command.dry_run) return;
-
-  double todo = 0.0;
-  for (Swath& swath : coverage.swaths) {
-    swath.first += offset;
-    swath.last += offset;
-    todo += swath.covered_area;
-  }
   progress.lines = std::move(coverage.lines);
-  const double covered_before = std::max(0.0, coverage.covered_area - todo);
-  plan->on_sent = [=, swaths = coverage.swaths, goal_area = coverage.reachable_area](const SentMotion& motion) {
-    file.write(progress);
-    const std::lock_guard<std::mutex> lock(sweep_mutex_);
-    sweep_.emplace(Sweep{motion.command, ZoneTracker(*motion.path, shifted(swaths, motion.index_shift)), file, progress,
-                         covered_before, goal_area});
-  };
+  auto planned = std::make_shared<PlannedSweep>(
+      PlannedSweep{file.path(), taskOf(std::move(progress), coverage, offset), command.resume != 0, nullptr});
+  planned->draft = keeper_->draft(file, planned->task.progress);
+  if (!planned->draft->failure().empty()) {
+    plan->report.warnings.push_back(
+        text("the progress of this sweep is not kept (~progress_folder): ", planned->draft->failure()));
+  }
+  plan->on_sent = [this, planned](const SentMotion& motion) { begin(planned.get(), motion); };
+}
+
+void ZoneCoverCommandProcessor::begin(PlannedSweep* planned, const SentMotion& motion) {
+  const std::lock_guard<std::mutex> lock(sweep_mutex_);
+  shiftPoints(motion.index_shift, &planned->task);
+  Sweep next{motion.command, planned->path, ZoneSweep(std::move(planned->task), motion.path)};
+  keeper_->adopt(*planned->draft);
+  const bool goes_on = planned->resumes && sweep_ && sweep_->path == next.path;
+  if (goes_on && next.zone.takeOver(sweep_->zone.progress())) keeper_->note(next.path, next.zone.progress(), true);
+  if (sweep_ && sweep_->path != next.path) keeper_->finish(sweep_->path);
+  sweep_.emplace(std::move(next));
 }
 
 void ZoneCoverCommandProcessor::track() {
+  keeper_->tick();
   const std::lock_guard<std::mutex> lock(sweep_mutex_);
   if (!sweep_) return;
-  const std::optional<CommandStatus> known = context().registry().statusOf(sweep_->command.serial);
-  if (!known) return sweep_.reset();
-  const CommandStatus& status = *known;
+  const std::optional<CommandStatus> status = context().registry().statusOf(sweep_->command.serial);
   try {
-    if (status.status == CommandStatus::FINISHED) keepDone(sweep_->tracker.swaths().size());
-    if (status.status == CommandStatus::RUNNING) followVehicle();
+    if (status && status->status == CommandStatus::FINISHED && sweep_->zone.finish()) {
+      keeper_->note(sweep_->path, sweep_->zone.progress(), true);
+    }
+    if (status && status->status == CommandStatus::RUNNING) followVehicle();
   } catch (const Error& error) {
     ROS_WARN_STREAM_THROTTLE(10.0, getName() << ": the progress is not followed: " << error.what());
   }
-  if (hasEnded(status)) sweep_.reset();
+  if (status && !hasEnded(*status)) return;
+  keeper_->finish(sweep_->path);
+  sweep_.reset();
 }
 
 void ZoneCoverCommandProcessor::followVehicle() {
-  ZoneTracker& tracker = sweep_->tracker;
-  tracker.update(context().vehiclePose().get());
-  keepDone(tracker.current());
-  const double covered = sweep_->covered_before + tracker.coveredArea();
-  const std::size_t total = sweep_->progress.lines.size();
+  const std::size_t before = sweep_->zone.finished();
+  const bool is_news = sweep_->zone.follow(context().vehiclePose().get());
+  if (is_news) keeper_->note(sweep_->path, sweep_->zone.progress(), sweep_->zone.finished() > before);
+  std::string words = sweep_->zone.words();
+  const std::string failure = keeper_->failureOf(sweep_->path);
+  if (!failure.empty()) words += "; the progress is not kept: " + failure;
   context().registry().update(
-      {sweep_->command.serial,
-       makeStatus(
-           sweep_->command.id, CommandStatus::RUNNING, ErrorCode::kOk,
-           text("swath ", std::min(sweep_->progress.done.size() + 1, total), " of ", total, ", ",
-                static_cast<int>(100.0 * std::min(covered / std::max(sweep_->goal_area, 1e-9), 1.0)), " % covered"))});
-}
-
-/// The first `count` swaths of the path are swept.
-void ZoneCoverCommandProcessor::keepDone(std::size_t count) {
-  CoverageProgress& progress = sweep_->progress;
-  const std::size_t before = progress.done.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t index = sweep_->tracker.swaths()[i].index;
-    if (contains(progress.done, index)) continue;
-    progress.done.push_back(index);
-    progress.skipped.erase(std::remove(progress.skipped.begin(), progress.skipped.end(), index),
-                           progress.skipped.end());
-  }
-  if (progress.done.size() > before) sweep_->file.write(progress);
+      {sweep_->command.serial, makeStatus(sweep_->command.id, CommandStatus::RUNNING, ErrorCode::kOk, words)});
 }
 
 }  // namespace external_command

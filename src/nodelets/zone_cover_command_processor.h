@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 
 #include "external_command/ZoneCover.h"
 #include "parking_manoeuvres.h"
+#include "zone_keeper.h"
 #include "zone_plan_file.h"
-#include "zone_tracker.h"
+#include "zone_sweep.h"
 
 namespace external_command {
 
@@ -22,11 +24,16 @@ class ZoneCoverCommandProcessor : public MotionCommandProcessor<ZoneCover> {
   /// A zone that is being swept.
   struct Sweep {
     AdmittedCommand command;
-    ZoneTracker tracker;
-    ZonePlanFile file;
-    CoverageProgress progress;
-    double covered_before;  ///< by earlier runs [m^2]
-    double goal_area;       ///< to be covered in all [m^2]
+    std::string path;  ///< of its file
+    ZoneSweep zone;
+  };
+
+  /// A sweep that is planned, and not sent yet.
+  struct PlannedSweep {
+    std::string path;  ///< of its file
+    ZoneTask task;
+    bool resumes;
+    std::unique_ptr<ZoneKeeper::Draft> draft;
   };
 
   void start() override;
@@ -44,17 +51,21 @@ class ZoneCoverCommandProcessor : public MotionCommandProcessor<ZoneCover> {
   bool isInside(const ZoneCoverCommand& command, const PlanStart& start) const;
   void enterZone(const ZoneCoverCommand& command, const CoverageArea& zone, const CancelToken& cancel,
                  MotionPlan* plan) const;
-  static CoverageProgress progressOf(const ZoneCoverCommand& command, const ZonePlanFile& file);
+  ZonePlanFile fileOf(const ZoneCoverCommand& command, const CoverageArea& zone, const CoverageParams& params) const;
+  CoverageProgress progressOf(const ZoneCoverCommand& command, const CoverageArea& zone, const CoverageParams& params,
+                              const ZonePlanFile& file);
   void appendCoverage(const CoverageResult& coverage, MotionPlan* plan) const;
-  // Called by the timer and before a plan; the latter two with the mutex held.
+  /// The sweep was sent: it replaces the one before, and its file that one's.
+  void begin(PlannedSweep* planned, const SentMotion& motion);
+  // Called by the timer and before a zone is resumed; the latter two with the mutex held.
   void track();
   void followVehicle();
-  void keepDone(std::size_t count);
 
   std::optional<ManoeuvrePlanner> planner_;
   CoverageParams coverage_params_;
   double access_distance_ = 10.0;  ///< of lanes to areas without overlaps, at most [m]
-  std::string progress_folder_ = "~/.ros/external_command";
+  std::string folder_;             ///< of the zones' files
+  std::optional<ZoneKeeper> keeper_;
   std::mutex sweep_mutex_;
   std::optional<Sweep> sweep_;
   DedicatedLane tracking_lane_{LaneOptions{"the lane that follows a sweep"}};  // before its timer

@@ -1,115 +1,153 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zone_plan_file.h"
 
+#include <pwd.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cctype>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <functional>
-#include <iomanip>
-#include <sstream>
 #include <system_error>
 
-#include "external_command/core/error.h"
-#include "external_command/core/text.h"
+#include "durable_file.h"
+#include "zone_text.h"
 
 namespace external_command {
 
 namespace {
 
-constexpr const char* kHeader = "external_command_zone_2";
-constexpr std::size_t kMostLines = 100000;  // more means that the file is damaged
-constexpr std::size_t kMostArcs = 1000000;
+constexpr std::size_t kMostOfName = 40;  // bytes of each part of a file's name
+constexpr const char* kTemporary = ".new";
 
-std::string expanded(const std::string& folder) {
-  const char* home = std::getenv("HOME");
-  if (folder.empty() || folder[0] != '~' || home == nullptr) return folder;
-  return home + folder.substr(1);
-}
-
-void writeIndices(const std::vector<std::size_t>& indices, std::ostream* file) {
-  *file << indices.size();
-  for (const std::size_t index : indices) *file << ' ' << index;
-  *file << '\n';
-}
-
-std::vector<std::size_t> readIndices(std::size_t total, std::istream* file) {
-  std::size_t count = 0;
-  *file >> count;
-  if (count > total) file->setstate(std::ios::failbit);
-  std::vector<std::size_t> indices(*file ? count : 0);
-  for (std::size_t& index : indices) {
-    *file >> index;
-    if (index >= total) file->setstate(std::ios::failbit);
+/// FNV-1a (G. Fowler, L. Noll, K.-P. Vo), 64 bits: the same in every build, unlike std::hash.
+class Digest {
+ public:
+  void add(const std::string& words) {
+    for (const char c : words) add(static_cast<unsigned char>(c));
+    add(0);
   }
-  return indices;
+
+  void add(double value, double unit) {
+    const auto whole = static_cast<std::uint64_t>(std::llround(value / unit));
+    for (int shift = 0; shift < 64; shift += 8) add(static_cast<unsigned char>(whole >> shift));
+  }
+
+  /// To the centimetre: a polygon that is given in a moving frame comes out a little different each time.
+  void add(const Polygon& polygon) {
+    for (const Point2d& point : polygon.points()) {
+      add(point.x(), 0.01);
+      add(point.y(), 0.01);
+    }
+    add(std::string());
+  }
+
+  std::uint64_t value() const { return value_; }
+
+ private:
+  void add(unsigned char byte) { value_ = (value_ ^ byte) * 1099511628211ull; }
+
+  std::uint64_t value_ = 14695981039346656037ull;
+};
+
+std::string forFileName(const std::string& name, const char* fallback) {
+  std::string result;
+  for (const char c : name.substr(0, kMostOfName)) {
+    result += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  }
+  return result.empty() ? fallback : result;
 }
 
-SwathLine readLine(std::istream* file) {
-  SwathLine line;
-  std::size_t count = 0;
-  *file >> line.start.x >> line.start.y >> line.start.heading >> count;
-  if (count > kMostArcs) file->setstate(std::ios::failbit);
-  line.arcs.resize(*file ? count : 0);
-  for (ArcSegment& arc : line.arcs) *file >> arc.length >> arc.kappa;
-  return line;
+/// Of a namespace, as zoneKey() puts it in front.
+std::string prefixOf(const std::string& vehicle_namespace) {
+  const std::size_t begin = vehicle_namespace.find_first_not_of('/');
+  return forFileName(begin == std::string::npos ? "" : vehicle_namespace.substr(begin), "root") + "-";
+}
+
+std::string homeFolder() {
+  if (const char* const home = std::getenv("HOME")) return home;
+  passwd entry{};
+  passwd* found = nullptr;
+  char buffer[4096];
+  return getpwuid_r(getuid(), &entry, buffer, sizeof buffer, &found) == 0 && found ? found->pw_dir : "/";
+}
+
+/// Whether the process that wrote NAME.PID-N.new may still be at it.
+bool isInUse(const std::string& name) {
+  const std::size_t dot = name.rfind('.', name.size() - std::string(kTemporary).size() - 1);
+  const long pid = dot == std::string::npos ? 0 : std::atol(name.c_str() + dot + 1);
+  return pid > 0 && pid != getpid() && (kill(static_cast<pid_t>(pid), 0) == 0 || errno == EPERM);
+}
+
+bool endsWith(const std::string& name, const std::string& end) {
+  return name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
 }
 
 }  // namespace
 
-ZonePlanFile::ZonePlanFile(const std::string& folder, std::uint64_t zone_key) {
-  std::ostringstream name;
-  name << std::hex << std::setw(16) << std::setfill('0') << zone_key << ".zone";
-  path_ = (std::filesystem::path(expanded(folder)) / name.str()).string();
+ZoneKey zoneKey(const std::string& vehicle_namespace, const std::string& label, const CoverageArea& area,
+                const CoverageParams& params, const VehicleParams& vehicle) {
+  Digest digest;
+  digest.add(vehicle_namespace);
+  digest.add(label);
+  digest.add(area.outer);
+  for (const Polygon& hole : area.holes) digest.add(hole);
+  for (const double value :
+       {params.swath_width, params.overlap, params.margin, static_cast<double>(params.headland_laps),
+        params.headland_first ? 1.0 : 0.0, params.swath_heading.value_or(-100.0), static_cast<double>(params.objective),
+        vehicle.width, vehicle.wheelbase, vehicle.front_overhang, vehicle.rear_overhang, vehicle.min_turning_radius}) {
+    digest.add(value, 1e-6);
+  }
+  return {prefixOf(vehicle_namespace) + forFileName(label, "polygon"), digest.value()};
+}
+
+std::string zoneFolder(const std::string& parameter) {
+  if (parameter.empty()) {
+    const char* const ros_home = std::getenv("ROS_HOME");
+    return (ros_home != nullptr && *ros_home != '\0' ? std::string(ros_home) : homeFolder() + "/.ros") +
+           "/external_command";
+  }
+  const bool is_home = parameter == "~" || parameter.compare(0, 2, "~/") == 0;
+  return is_home ? homeFolder() + parameter.substr(1) : parameter;
+}
+
+ZonePlanFile::ZonePlanFile(const std::string& folder, const ZoneKey& key) : digest_(key.digest) {
+  char digits[17];
+  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(key.digest));
+  path_ = (std::filesystem::path(folder) / (key.name + "-" + digits + ".zone")).string();
 }
 
 std::optional<CoverageProgress> ZonePlanFile::read() const {
-  std::ifstream file(path_);
-  std::string header;
-  std::size_t total = 0;
-  file >> header >> total;
-  if (!file || header != kHeader || total == 0 || total > kMostLines) return std::nullopt;
-  CoverageProgress progress;
-  progress.done = readIndices(total, &file);
-  progress.skipped = readIndices(total, &file);
-  for (std::size_t i = 0; i < total && file; ++i) progress.lines.push_back(readLine(&file));
-  if (!file) return std::nullopt;
-  return progress;
+  std::string content;
+  if (!durable_file::read(path_, kMostZoneText + 1, &content)) return std::nullopt;
+  return parseZone(content, digest_);
 }
 
-void ZonePlanFile::write(const CoverageProgress& progress) const {
-  const std::string temporary = path_ + ".new";
+void ZonePlanFile::setAside() const { durable_file::replace(damagedPath(), path_); }
+
+bool ZonePlanFile::isSetAside() const {
   std::error_code failure;
-  std::filesystem::create_directories(std::filesystem::path(path_).parent_path(), failure);
-  std::ofstream file(temporary);
-  file << std::setprecision(17) << kHeader << ' ' << progress.lines.size() << '\n';
-  writeIndices(progress.done, &file);
-  writeIndices(progress.skipped, &file);
-  for (const SwathLine& line : progress.lines) {
-    file << line.start.x << ' ' << line.start.y << ' ' << line.start.heading << ' ' << line.arcs.size();
-    for (const ArcSegment& arc : line.arcs) file << ' ' << arc.length << ' ' << arc.kappa;
-    file << '\n';
-  }
-  file.close();
-  if (file) std::filesystem::rename(temporary, path_, failure);
-  if (!file || failure) {
-    throw InternalError(
-        text("the progress of the zone cannot be kept in ", path_, "; is the folder (~progress_folder) ", "writable?"));
-  }
+  return std::filesystem::exists(damagedPath(), failure);
 }
 
-std::uint64_t zoneKey(const CoverageArea& area, const CoverageParams& params, const VehicleParams& vehicle) {
-  std::string words;
-  const auto add = [&](const Polygon& polygon) {
-    for (const Point2d& point : polygon.points()) words += at(point);
-    words += ';';
-  };
-  add(area.outer);
-  for (const Polygon& hole : area.holes) add(hole);
-  words +=
-      text(params.swath_width, ' ', params.overlap, ' ', params.margin, ' ', params.headland_laps, ' ',
-           params.headland_first, ' ', params.swath_heading.value_or(-100.0), ' ', static_cast<int>(params.objective),
-           ' ', vehicle.width, ' ', vehicle.length(), ' ', vehicle.rear_overhang, ' ', vehicle.min_turning_radius);
-  return std::hash<std::string>()(words);
+std::string ZonePlanFile::temporaryPath() const {
+  static std::atomic<unsigned> count{0};
+  return path_ + "." + std::to_string(getpid()) + "-" + std::to_string(++count) + kTemporary;
+}
+
+void removeLeftovers(const std::string& folder, const std::string& vehicle_namespace) {
+  const std::string prefix = prefixOf(vehicle_namespace);
+  std::error_code failure;
+  for (std::filesystem::directory_iterator file(folder, failure), end; !failure && file != end;
+       file.increment(failure)) {
+    const std::string name = file->path().filename().string();
+    if (name.compare(0, prefix.size(), prefix) != 0 || !endsWith(name, kTemporary) || isInUse(name)) continue;
+    durable_file::remove(file->path().string());
+  }
 }
 
 }  // namespace external_command

@@ -137,18 +137,92 @@ TEST(CoveragePlanner, IsRepeatable) {
   for (std::size_t i = 0; i < first.path.size(); ++i) EXPECT_EQ(first.path[i].x, second.path[i].x);
 }
 
+/// The plan of `result` of which the first `count` lines are swept.
+CoverageProgress progressOf(const CoverageResult& result, std::size_t count) {
+  CoverageProgress progress;
+  progress.lines = result.lines;
+  for (std::size_t i = 0; i < count; ++i) progress.sweep(i, progress.lines[i].length());
+  return progress;
+}
+
 TEST(CoveragePlanner, GoesOnWhereAnEarlierRunStopped) {
   const CoverageArea area{box(0, 0, 40, 30), {}};
   const CoverageResult whole = planned(area);
-  CoverageProgress progress;
-  progress.lines = whole.lines;
-  for (std::size_t i = 0; i < whole.lines.size() / 2; ++i) progress.done.push_back(i);
+  const CoverageProgress progress = progressOf(whole, whole.lines.size() / 2);
   const CoverageResult rest = planned(area, progress);
   EXPECT_EQ(rest.lines.size(), whole.lines.size());
-  EXPECT_EQ(rest.swaths.size() + progress.done.size(), whole.lines.size());
-  EXPECT_EQ(rest.swaths.front().index, progress.done.size());
+  EXPECT_EQ(rest.swaths.size() + progress.countDone(), whole.lines.size());
+  EXPECT_EQ(rest.swaths.front().index, progress.countDone());
   EXPECT_LT(rest.length, whole.length);
   EXPECT_NEAR(rest.coverage_ratio, whole.coverage_ratio, 0.01);
+  EXPECT_TRUE(isDrivable(rest.path, area));
+}
+
+CoverageResult plannedWithLaps(const CoverageArea& area, const Pose2d& start, const CoverageProgress& progress = {}) {
+  CoverageParams wished = params();
+  wished.headland_laps = 2;
+  return CoveragePlanner(sweeper(), wished).plan(area, start, progress, {});
+}
+
+TEST(CoveragePlanner, TellsLapsFromSwaths) {
+  const CoverageResult result = plannedWithLaps({box(0, 0, 40, 30), {}}, kStart);
+  EXPECT_EQ(result.lines.front().lap, 0);
+  EXPECT_EQ(result.lines.back().lap, -1);
+  std::set<int> laps;
+  for (const SwathLine& line : result.lines) laps.insert(line.lap);
+  EXPECT_EQ(laps, (std::set<int>{-1, 0, 1}));
+}
+
+/// The area that `result` covers up to its point `reached`.
+double coveredUpTo(const CoverageResult& result, std::size_t reached) {
+  double area = 0.0;
+  for (const Swath& swath : result.swaths) {
+    EXPECT_EQ(swath.covered.size(), swath.last - swath.first + 1);
+    EXPECT_EQ(swath.covered.back(), swath.covered_area);
+    if (reached > swath.first) area += swath.covered[std::min(reached, swath.last) - swath.first];
+  }
+  return area;
+}
+
+double todoOf(const CoverageResult& result) { return coveredUpTo(result, result.path.size()); }
+
+TEST(CoveragePlanner, DrivesTheRestOfALapThatWasBegun) {
+  const CoverageArea area{box(0, 0, 40, 30), {}};
+  const CoverageResult whole = plannedWithLaps(area, kStart);
+  const Swath& lap = whole.swaths.front();
+  for (const double share : {0.1, 0.5, 0.9}) {
+    const std::size_t reached = lap.first + static_cast<std::size_t>(share * (lap.last - lap.first));
+    const double swept = whole.path[reached].s - whole.path[lap.first].s;
+    CoverageProgress progress = progressOf(whole, 0);
+    progress.sweep(lap.index, swept);
+    const CoverageResult rest = plannedWithLaps(area, whole.path[reached].pose(), progress);
+    EXPECT_EQ(rest.swaths.front().index, lap.index);
+    EXPECT_EQ(rest.swaths.front().from, swept) << "the vehicle stands there";
+    EXPECT_EQ(rest.swaths.front().first, 0u);
+    EXPECT_NEAR(rest.swaths.front().length, lap.length - swept, 1e-6);
+    EXPECT_EQ(rest.swaths.size(), whole.swaths.size());
+    EXPECT_NEAR(rest.covered_area, whole.covered_area, 0.5);
+    EXPECT_NEAR(rest.covered_area - todoOf(rest), coveredUpTo(whole, reached), 0.5) << "what the first run swept";
+    EXPECT_TRUE(isDrivable(rest.path, area));
+  }
+}
+
+TEST(CoveragePlanner, BacksUpALittleToARestThatTheVehicleStandsBeside) {
+  const CoverageArea area{box(0, 0, 40, 30), {}};
+  const CoverageResult whole = plannedWithLaps(area, kStart);
+  const Swath& swath = whole.swaths[3];
+  const std::size_t reached = (swath.first + swath.last) / 2;
+  CoverageProgress progress = progressOf(whole, 3);
+  progress.sweep(swath.index, whole.path[reached].s - whole.path[swath.first].s);
+  Pose2d beside = whole.path[reached].pose();
+  beside.x -= 0.1 * std::sin(beside.heading);
+  beside.y += 0.1 * std::cos(beside.heading);
+  const CoverageResult rest = plannedWithLaps(area, beside, progress);
+  const Swath& first = rest.swaths.front();
+  EXPECT_EQ(first.index, swath.index);
+  EXPECT_LE(first.from, progress.sweptOf(swath.index));
+  EXPECT_GE(first.from, progress.sweptOf(swath.index) - 2.0 * sweeper().min_turning_radius);
+  EXPECT_LT(rest.path[first.first].s, 4.0 * sweeper().min_turning_radius);
   EXPECT_TRUE(isDrivable(rest.path, area));
 }
 
@@ -175,8 +249,10 @@ TEST(CoveragePlanner, LeavesOutASwathThatANewObstacleBlocks) {
 
 TEST(CoveragePlanner, RefusesProgressOfAnotherPlan) {
   CoverageProgress progress;
-  progress.done = {100000};
+  progress.swept = {10.0};
   EXPECT_THROW(planned({box(0, 0, 30, 20), {}}, progress), InvalidRequest);
+  progress = progressOf(planned({box(0, 0, 40, 30), {}}), 1);
+  EXPECT_THROW(planned({box(0, 0, 30, 20), {}}, progress), InvalidRequest) << "its lines leave this area";
 }
 
 /// 40 m x 30 m at 0.25 m with one obstacle, 3 m x 1 m, and a field of unknown cells.

@@ -11,25 +11,19 @@ import unittest
 import rospy
 import rostest
 import tf2_ros
-from geometry_msgs.msg import Point
 from nav_msgs.msg import OccupancyGrid
 
 import support
-from external_command.msg import ActionCommand, CommandStatus, FreeSpaceCommand, Pose, RoiPolygon, ZoneCoverCommand
-from external_command.srv import Action, FreeSpace, ZoneCover
+from external_command.msg import CommandStatus, FreeSpaceCommand, Pose
+from external_command.srv import FreeSpace
+from zone_yard import Sweeper, box, polygon, swath_of
 
-NS = "/courtyard/external_command/"
 NODE = "/courtyard/external_command"
-STATUS = NS + "command_status"
 PROGRESS_FOLDER = "/tmp/external_command_zone_cover_test"
-YARD = [(-15, -12), (15, -12), (15, 12), (-15, 12)]
-SMALL_YARD = [(-12, -10), (12, -10), (12, 10), (-12, 10)]
+YARD = box(13, 10)
+SMALL_YARD = box(12, 10)
 OCCUPIED = (6.0, 2.0, 8.0, 4.0)  # x0, y0, x1, y1 of an obstacle in the grid [m]
 HALF_WIDTH = 0.9  # of the vehicle, less than it is: the rear axle stays at least that far away [m]
-
-
-def polygon(corners):
-    return RoiPolygon(points=[Point(x=x, y=y) for x, y in corners])
 
 
 def grid(*occupied):
@@ -49,20 +43,11 @@ def grid(*occupied):
     return message
 
 
+SWEEPER = Sweeper("courtyard")
+
+
 def cover(corners=YARD, **fields):
-    command = ZoneCoverCommand(drivable_roi=polygon(corners), swath_width=2.5, **fields)
-    return support.service(NS + "zone_cover", ZoneCover)(command)
-
-
-def stop():
-    answer = support.service(NS + "action", Action)(ActionCommand(command=ActionCommand.STOP))
-    support.wait_for_status(answer.status.command_id, CommandStatus.FINISHED, STATUS)
-
-
-def swath_of(message):
-    """i of "swath i of n", 0 where there is none."""
-    found = re.match(r"swath (\d+) of (\d+)", message)
-    return int(found.group(1)) if found else 0
+    return SWEEPER.cover(corners, **fields)
 
 
 class ZoneCoverTest(unittest.TestCase):
@@ -73,20 +58,11 @@ class ZoneCoverTest(unittest.TestCase):
         cls.listener = tf2_ros.TransformListener(cls.buffer)
         cls.grid_publisher = rospy.Publisher("/courtyard/obstacle_grid", OccupancyGrid, queue_size=1, latch=True)
         cls.grid_publisher.publish(grid())
-        cls.wait_until_ready()
+        SWEEPER.wait_until_ready(YARD)
 
     @classmethod
     def tearDownClass(cls):
         shutil.rmtree(PROGRESS_FOLDER, ignore_errors=True)
-
-    @staticmethod
-    def wait_until_ready():
-        def is_ready():
-            try:
-                return cover(dry_run=True).status.error_code != CommandStatus.NOT_READY
-            except (rospy.ServiceException, OSError):
-                return False
-        support.wait_until(is_ready, "a pose, a grid and a plan", 60.0)
 
     def assert_running(self, answer):
         self.assertEqual(answer.status.status, CommandStatus.RUNNING, support.describe(answer.status))
@@ -100,31 +76,25 @@ class ZoneCoverTest(unittest.TestCase):
     def setUp(self):
         """Every test begins in the middle."""
         middle = Pose(heading=0.0, has_heading=True)
-        command = FreeSpaceCommand(parking_spot_pose=middle, drivable_roi=polygon([(-40, -40), (40, -40), (40, 40), (-40, 40)]))
-        self.finish(self.assert_running(support.service(NS + "free_space", FreeSpace)(command)))
+        command = FreeSpaceCommand(parking_spot_pose=middle, drivable_roi=polygon(box(40, 40)))
+        self.finish(self.assert_running(support.service(SWEEPER.ns + "free_space", FreeSpace)(command)))
 
     def finish(self, command_id):
-        support.wait_for_status(command_id, CommandStatus.FINISHED, STATUS, 90.0)
+        SWEEPER.finish(command_id)
 
     def interrupt_half_way(self, corners):
         """Begins to sweep and stops the vehicle; returns how many swaths there are, and were done."""
-        statuses = support.Collector(NS + "status", CommandStatus)
-        answer = cover(corners)
-        command_id = self.assert_running(answer)
-        half = statuses.wait_for(lambda m: m.command_id == command_id and swath_of(m.message) >= 4, "the fourth swath")
-        stop()
-        last = [m.message for m in statuses.messages if m.command_id == command_id and swath_of(m.message)][-1]
-        statuses.close()
-        return int(re.match(r"swath \d+ of (\d+)", half.message).group(1)), swath_of(last) - 1
+        last = SWEEPER.sweep_until(corners, lambda message: swath_of(message) >= 4)[-1]
+        return int(re.match(r"swath \d+ of (\d+)", last).group(1)), swath_of(last) - 1
 
     def kill_the_gateway(self):
         killed = support.pid_of(NODE)
         os.kill(killed, signal.SIGKILL)
         support.wait_until(lambda: support.pid_of(NODE) not in (None, killed), "the gateway is started again", 60.0)
-        self.wait_until_ready()
+        SWEEPER.wait_until_ready(YARD)
 
     def test_sweeps_to_the_end_and_then_has_nothing_to_resume(self):
-        corners = [(-12, -9), (12, -9), (12, 9), (-12, 9)]
+        corners = box(12, 9)
         answer = cover(corners)
         self.assertGreater(answer.report.coverage_ratio, 0.95)
         self.finish(self.assert_running(answer))
@@ -132,11 +102,15 @@ class ZoneCoverTest(unittest.TestCase):
 
     def test_goes_on_after_a_restart_where_it_was_killed(self):
         total, done = self.interrupt_half_way(YARD)
+        leftover = os.path.join(PROGRESS_FOLDER, "courtyard-polygon-0.zone.999999999-1.new")
+        with open(leftover, "w", encoding="ascii") as file:
+            file.write("of a process that was killed while it wrote")
         self.kill_the_gateway()
+        self.assertFalse(os.path.exists(leftover))
         again = cover(YARD, dry_run=True)
         answer = cover(YARD, resume=True)
         self.assertLess(answer.report.path_length, again.report.path_length)
-        statuses = support.Collector(NS + "status", CommandStatus)
+        statuses = support.Collector(SWEEPER.ns + "status", CommandStatus)
         command_id = self.assert_running(answer)
         first = statuses.wait_for(lambda m: m.command_id == command_id and swath_of(m.message), "progress")
         self.assertIn("of %d," % total, first.message)

@@ -11,7 +11,7 @@
 #include "external_command/core/polygon.h"
 #include "external_command/core/vehicle.h"
 #include "external_command/coverage/coverage_params.h"
-#include "external_command/free_space/reeds_shepp.h"
+#include "external_command/coverage/coverage_progress.h"
 #include "external_command/free_space/region.h"
 
 namespace external_command {
@@ -25,33 +25,21 @@ struct CoverageArea {
   std::optional<OccupancyGrid> grid = std::nullopt;
 };
 
-/// The line that the rear-axle centre drives on one stretch of work: a lap along the border, a ring around a hole, or a
-/// straight swath.
-struct SwathLine {
-  Pose2d start;
-  std::vector<ArcSegment> arcs;
-};
-
-/// A swath on the path.
+/// A line, or the rest of one that was begun, on the path.
 struct Swath {
-  std::size_t index = 0;      ///< in CoverageResult::lines
-  std::size_t first = 0;      ///< its first point in CoverageResult::path
-  std::size_t last = 0;       ///< its last point; the vehicle arrives working at first + 1 ... last
-  double length = 0.0;        ///< [m]
-  double covered_area = 0.0;  ///< that it adds to what the swaths before it on the path have swept [m^2]
-};
-
-/// Where an earlier run stopped. The default is a fresh start.
-struct CoverageProgress {
-  std::vector<SwathLine> lines;      ///< CoverageResult::lines of the first run; none: they are planned
-  std::vector<std::size_t> done;     ///< of the lines: swept, not to be driven again
-  std::vector<std::size_t> skipped;  ///< of the lines: were blocked, tried again at the end
+  std::size_t index = 0;        ///< in CoverageResult::lines
+  std::size_t first = 0;        ///< its first point in CoverageResult::path
+  std::size_t last = 0;         ///< its last point; the vehicle arrives working at first + 1 ... last
+  double from = 0.0;            ///< where on the line it begins [m]
+  double length = 0.0;          ///< from there to the end of the line [m]
+  double covered_area = 0.0;    ///< that it adds to what the swaths before it on the path have swept [m^2]
+  std::vector<double> covered;  ///< of it, up to each of the points first ... last [m^2]
 };
 
 struct CoverageResult {
   Path path;                     ///< of the rear-axle centre; `tool_on` where the vehicle arrives working
   std::vector<Swath> swaths;     ///< in the order of the path
-  std::vector<SwathLine> lines;  ///< all swaths of the plan in their order, those that are done included
+  std::vector<SwathLine> lines;  ///< all laps and swaths of the plan in their order, those that are done included
 
   double coverage_ratio = 0.0;                  ///< swept share of what the vehicle can reach from the start
   double covered_free = 0.0;                    ///< swept share of the whole free area
@@ -81,9 +69,10 @@ class CoveragePlanner {
 
   /// @param start     pose of the vehicle; not given: the path begins with its first swath.
   /// @param progress  to go on with an earlier plan, in the same area; it may have new holes since. The ratios
-  ///                  then tell of the whole plan, the path and the lengths of what is still to be done.
+  ///                  then tell of the whole plan, the path and the lengths of what is still to be done. Of a line that
+  ///                  was begun the rest is driven, from where it was left or a little before.
   /// @throws InvalidRequest   the area is smaller than the vehicle, a hole leaves nothing of it, it is too large, or
-  ///                          `progress` names a line that there is not.
+  ///                          `progress` is not plausible (requirePlausible).
   /// @throws StartBlocked     the footprint at `start` is outside the area or in a hole; the text says by how much.
   /// @throws NoPath           no swath can be reached from `start`.
   /// @throws PlanningTimeout  time_budget ran out.

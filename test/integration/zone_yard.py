@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the tests of zone cover share: yards, and a vehicle that sweeps them."""
+import re
+
+from geometry_msgs.msg import Point
+
+import support
+from external_command.msg import ActionCommand, CommandStatus, RoiPolygon, ZoneCoverCommand
+from external_command.srv import Action, ZoneCover
+
+
+def polygon(corners):
+    return RoiPolygon(points=[Point(x=x, y=y) for x, y in corners])
+
+
+def box(half_length, half_width):
+    """The corners of a yard around the origin."""
+    x, y = half_length, half_width
+    return [(-x, -y), (x, -y), (x, y), (-x, y)]
+
+
+def swath_of(message):
+    """i of "swath i of n", 0 where there is none."""
+    found = re.match(r"swath (\d+) of (\d+)", message)
+    return int(found.group(1)) if found else 0
+
+
+def percent_of(message):
+    """n of "n % covered", -1 where there is none."""
+    found = re.search(r"(\d+) % covered", message)
+    return int(found.group(1)) if found else -1
+
+
+class Sweeper:
+    """One vehicle that sweeps zones, by its namespace."""
+
+    def __init__(self, vehicle):
+        self.ns = "/%s/external_command/" % vehicle
+        self.status_service = self.ns + "command_status"
+
+    def cover(self, corners, **fields):
+        command = ZoneCoverCommand(drivable_roi=polygon(corners), swath_width=2.5, **fields)
+        return support.service(self.ns + "zone_cover", ZoneCover)(command)
+
+    def wait_until_ready(self, corners):
+        def is_ready():
+            try:
+                return self.cover(corners, dry_run=True).status.error_code != CommandStatus.NOT_READY
+            except Exception:  # pylint: disable=broad-except  # a service that is about to come, or to go
+                return False
+        support.wait_until(is_ready, "a pose and a plan", 60.0)
+
+    def act(self, action):
+        answer = support.service(self.ns + "action", Action)(ActionCommand(command=action))
+        support.wait_for_status(answer.status.command_id, CommandStatus.FINISHED, self.status_service)
+
+    def stop(self):
+        self.act(ActionCommand.STOP)
+
+    def finish(self, command_id):
+        support.wait_for_status(command_id, CommandStatus.FINISHED, self.status_service, 90.0)
+
+    def collect(self):
+        return support.Collector(self.ns + "status", CommandStatus)
+
+    def sweep_until(self, corners, reached, action=ActionCommand.STOP, **fields):
+        """Sweeps until a message of progress is `reached`, then ends it by `action`. Returns all of these messages."""
+        statuses = self.collect()
+        answer = self.cover(corners, **fields)
+        assert answer.status.status == CommandStatus.RUNNING, support.describe(answer.status)
+        command_id = answer.status.command_id
+        statuses.wait_for(lambda m: m.command_id == command_id and reached(m.message), "progress")
+        if action:
+            self.act(action)
+        messages = [m.message for m in statuses.messages if m.command_id == command_id and swath_of(m.message)]
+        statuses.close()
+        return messages
