@@ -23,7 +23,9 @@ class Component:
             code = component.wait_for_end()
     """
 
-    def __init__(self, namespace, parameters, environment=None):
+    def __init__(self, namespace, parameters, environment=None, output=None):
+        """`output`: what takes the output, instead of a file that is kept."""
+        self._output = output
         self.namespace = namespace
         self._parameters = parameters
         self._environment = dict(os.environ, **(environment or {}))
@@ -41,7 +43,7 @@ class Component:
         executable = roslib.packages.find_node("external_command", "external_command_process")[0]
         self._process = subprocess.Popen(
             [executable, "__ns:=" + self.namespace, "__name:=external_command"], env=self._environment,
-            stdin=subprocess.DEVNULL, stdout=self._log, stderr=subprocess.STDOUT)
+            stdin=subprocess.DEVNULL, stdout=self._output or self._log, stderr=subprocess.STDOUT)
 
     @staticmethod
     def _complete(parameters):

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The process ends when it is told to, at once and in order, whatever it is doing."""
+import os
 import random
 import signal
 import threading
@@ -14,12 +15,14 @@ from geometry_msgs.msg import Point
 
 import support
 from component import LANE_FOLLOW, Component
-from external_command.msg import CommandStatus, Pose, RoiPolygon, ZoneCoverCommand
-from external_command.srv import GetCommandStatus, ZoneCover
+from external_command.msg import (ActionCommand, CommandStatus, PathFollowCommand, Pose, RoiPolygon,
+                                  ZoneCoverCommand)
+from external_command.srv import Action, GetCommandStatus, PathFollow, ZoneCover
 
 NAMESPACE = "/ending_test"
 STATUS = NAMESPACE + "/external_command/command_status"
 ZONE_COVER = "external_command/ZoneCoverCommandProcessor"
+PATH_FOLLOW = "external_command/PathFollowCommandProcessor"
 
 
 def component(processors, **others):
@@ -65,6 +68,25 @@ class EndingTest(unittest.TestCase):
             self.assertEqual(started.wait_for_end(), 0, started.output)
             self.assertLess(time.monotonic() - begin, 0.5 * budget)
             statuses.close()
+
+    def test_goes_on_while_nobody_reads_its_output(self):
+        reader, writer = os.pipe()
+        processors = [PATH_FOLLOW, "external_command/ActionCommandProcessor"]
+        try:
+            with Component(NAMESPACE, {"external_command": {"processors": processors}}, output=writer) as started:
+                follow = started.service("external_command/path_follow", PathFollow)
+                motion = follow(PathFollowCommand(way_point=[Point(0.0, 0.0, 0.0), Point(9.0, 0.0, 0.0)])).status
+                for _ in range(1500):  # far more lines than a pipe holds
+                    self.assertEqual(follow(PathFollowCommand()).status.status, CommandStatus.ERROR)
+                act = started.service("external_command/action", Action)
+                self.assertEqual(act(ActionCommand(command=ActionCommand.STOP)).status.status, CommandStatus.RUNNING)
+                reports = rospy.Publisher(NAMESPACE + "/planning/command_status", CommandStatus, queue_size=1)
+                support.wait_until(lambda: reports.get_num_connections() > 0, "somebody listens to the planner")
+                reports.publish(CommandStatus(command_id=motion.command_id, status=CommandStatus.FINISHED))
+                support.wait_for_status(motion.command_id, CommandStatus.FINISHED, STATUS)
+        finally:
+            os.close(reader)
+            os.close(writer)
 
     @staticmethod
     def _call(call):

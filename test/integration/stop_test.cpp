@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <nodelet/loader.h>
 #include <ros/ros.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
 #include <future>
@@ -304,6 +305,65 @@ TEST_F(Stop, KeepsWhatWaitsInTheLineOfLegacyRequestsFromBeingSent) {
   EXPECT_TRUE(commands.messages().empty());
   requests.publish(request);
   EXPECT_TRUE(commands.waitFor(1)) << "what arrives after the stop is sent";
+}
+
+/// A localization that tells where the test wants the vehicle to be.
+class Localization {
+ public:
+  Localization() { publisher_ = ros::NodeHandle().advertise<tf2_msgs::TFMessage>("/tf", 10); }
+
+  /// Returns once `planner` sees the vehicle there.
+  void place(const BlockingPlanner& planner, double x) const {
+    tf2_msgs::TFMessage message;
+    message.transforms.resize(1);
+    auto& transform = message.transforms[0];
+    transform.header.frame_id = "map";
+    transform.child_frame_id = "base_link";
+    transform.transform.translation.x = x;
+    transform.transform.rotation.w = 1.0;
+    do {
+      transform.header.stamp = ros::Time::now();
+      publisher_.publish(message);
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    } while (!planner.seesVehicleAt(x));
+  }
+
+ private:
+  ros::Publisher publisher_;
+};
+
+TEST_F(Stop, IsNoCaseForAVehicleThatHasDrivenTheFirstOfItsPathMeanwhile) {
+  const Localization localization;
+  localization.place(*planner_, 0.0);
+  const auto gate = planner_->holdPlans(true);
+  auto planned = plan();
+  ASSERT_TRUE(gate->waitForEntered(1));
+  localization.place(*planner_, 4.0);
+  gate->open();
+  const CommandStatus status = planned.get();
+  EXPECT_EQ(status.status, CommandStatus::RUNNING) << status.message << ": it is on its path";
+}
+
+TEST_F(Stop, LeavesTheRunningCommandAloneWhereTheVehicleIsElsewhereThanTheNewPath) {
+  const Localization localization;
+  localization.place(*planner_, 0.0);
+  planner_->holdPlans(true)->open();
+  const CommandStatus running = plan().get();
+  ASSERT_EQ(running.status, CommandStatus::RUNNING) << running.message;
+  const auto first_try = planner_->holdPlans(true);
+  auto planned = plan();
+  ASSERT_TRUE(first_try->waitForEntered(1));
+  localization.place(*planner_, 100.0);
+  const auto second_try = planner_->holdPlans(true);
+  first_try->open();
+  ASSERT_TRUE(second_try->waitForEntered(1)) << "it is planned once more";
+  localization.place(*planner_, 200.0);
+  second_try->open();
+  const CommandStatus refused = planned.get();
+  EXPECT_EQ(refused.error_code, CommandStatus::PLANNING_TIMEOUT) << refused.message;
+  planner_->holdPlans(true)->open();
+  const CommandStatus next = plan().get();
+  EXPECT_EQ(next.status, CommandStatus::RUNNING) << next.message;
 }
 
 TEST_F(Stop, GetsThroughThoughCallbacksOfAnotherProcessorThrow) {

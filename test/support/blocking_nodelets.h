@@ -6,6 +6,7 @@
 
 #include <boost/make_shared.hpp>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <functional>
 #include <memory>
@@ -106,6 +107,14 @@ class BlockingProcessor : public MotionCommandProcessor<Service> {
     gate_ = std::make_shared<TestGate>();
     polls_cancel_ = polls_cancel;
     return gate_;
+  }
+
+  bool seesVehicleAt(double x) const {
+    try {
+      return std::abs(this->context().vehiclePose().get().x - x) < 0.01;
+    } catch (const NotReady&) {
+      return false;
+    }
   }
 
  private:

@@ -1,0 +1,67 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""A vehicle that drives on while the next command is planned takes it over without a stop: its path begins where the
+vehicle is when it is sent."""
+import math
+import unittest
+
+import rospy
+import rostest
+from geometry_msgs.msg import Point
+
+import support
+from external_command.msg import (ActionCommand, CommandStatus, FreeSpaceCommand, PlanningCommand, Pose, RoiPolygon,
+                                  ZoneCoverCommand)
+from external_command.srv import Action, FreeSpace, ZoneCover
+from vehicle import Vehicle
+
+FAST = 10.0  # [m/s]
+NEAR = 3.0  # from the vehicle, when the test sees it, to the begin of the path, where messages take 0.2 s [m]
+
+
+class MovingVehicleTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.vehicle = Vehicle()
+        act = support.service("external_command/action", Action)
+        support.wait_until(lambda: act(ActionCommand(command=ActionCommand.SWITCH_TO_AUTO)).status.error_code !=
+                           CommandStatus.NOT_READY, "the chassis is heard")
+
+    def setUp(self):
+        self.commands = support.Collector("planning/command", PlanningCommand)
+        self.motion = self.vehicle.drive_straight(2000.0)
+        support.wait_until(lambda: self.vehicle.speed > FAST, "the vehicle is fast")
+
+    def tearDown(self):
+        self.commands.close()
+        support.service("external_command/action", Action)(ActionCommand(command=ActionCommand.CLEAR_PLANNING))
+        self.vehicle.wait_until_standing()
+
+    def assert_taken_over(self, status):
+        """The vehicle drives the new command, and did not stop for it."""
+        self.assertEqual(status.status, CommandStatus.RUNNING, support.describe(status))
+        command = self.commands.wait_for(lambda m: m.command_id == status.command_id, "the command")
+        x, y, _ = self.vehicle.pose
+        first = command.path.points[0]
+        self.assertLess(math.hypot(first.x - x, first.y - y), NEAR + 0.5 * self.vehicle.speed)
+        self.assertEqual(support.command_status(self.motion).error_code, CommandStatus.SUPERSEDED)
+        support.wait_until(lambda: "driven" in support.command_status(status.command_id).message or
+                           "swath" in support.command_status(status.command_id).message or
+                           "lap" in support.command_status(status.command_id).message, "the vehicle reports")
+        self.assertEqual(support.command_status(status.command_id).status, CommandStatus.RUNNING)
+
+    def test_to_a_free_space_command(self):
+        goal = self.vehicle.ahead((150.0, 20.0))[0]
+        command = FreeSpaceCommand(parking_spot_pose=Pose(goal.x, goal.y, self.vehicle.pose[2], True))
+        self.assert_taken_over(support.service("external_command/free_space", FreeSpace)(command).status)
+
+    def test_to_a_zone(self):
+        corners = self.vehicle.ahead((-20.0, -40.0), (160.0, -40.0), (160.0, 40.0), (-20.0, 40.0))
+        command = ZoneCoverCommand(drivable_roi=RoiPolygon(points=[Point(p.x, p.y, 0.0) for p in corners]),
+                                   swath_width=4.0)
+        self.assert_taken_over(support.service("external_command/zone_cover", ZoneCover)(command).status)
+
+
+if __name__ == "__main__":
+    rospy.init_node("moving_vehicle_test")
+    rostest.rosrun("external_command", "moving_vehicle", MovingVehicleTest)
