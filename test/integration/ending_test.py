@@ -84,6 +84,7 @@ class EndingTest(unittest.TestCase):
                 support.wait_until(lambda: reports.get_num_connections() > 0, "somebody listens to the planner")
                 reports.publish(CommandStatus(command_id=motion.command_id, status=CommandStatus.FINISHED))
                 support.wait_for_status(motion.command_id, CommandStatus.FINISHED, STATUS)
+                started.send_signal(signal.SIGKILL)  # what ROS itself still wants to write would keep it
         finally:
             os.close(reader)
             os.close(writer)
