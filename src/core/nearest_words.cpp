@@ -51,7 +51,8 @@ void NearestWords::offer(const std::string& known) {
   if (distance > limit_) return;
   if (distance < limit_) words_.clear();
   limit_ = distance;
-  if (words_.size() < kMostWords) words_.push_back(known);
+  const bool is_new = std::find(words_.begin(), words_.end(), known) == words_.end();
+  if (is_new && words_.size() < kMostWords) words_.push_back(known);
 }
 
 std::string NearestWords::question() const {

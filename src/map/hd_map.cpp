@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "external_command/core/error.h"
+#include "external_command/core/text.h"
 #include "lane_search.h"
 #include "map_content.h"
 #include "map_resolver.h"
@@ -24,7 +26,13 @@ struct HdMap::Content {
   MapContent map;
 };
 
-HdMap::HdMap(MapData data, const Point2d& origin) : content_(new Content{resolve(std::move(data), origin)}) {}
+void MapParams::validate() const {
+  if (max_link_gap >= 0.0 && max_link_gap <= 1000.0) return;  // false for NaN
+  throw InvalidParameter(text("max_link_gap is ", max_link_gap, "; it must lie in [0, 1000] m"));
+}
+
+HdMap::HdMap(MapData data, const Point2d& origin, const MapParams& params)
+    : content_(new Content{resolve(std::move(data), origin, params)}) {}
 
 HdMap::~HdMap() = default;
 
@@ -37,6 +45,7 @@ const std::vector<Junction>& HdMap::junctions() const { return content_->map.jun
 const std::vector<ParkingSpace>& HdMap::parkingSpaces() const { return content_->map.parking_spaces; }
 const std::vector<Area>& HdMap::areas() const { return content_->map.areas; }
 const std::vector<MapWarning>& HdMap::warnings() const { return content_->map.warnings; }
+const std::vector<BrokenLink>& HdMap::brokenLinks() const { return content_->map.broken_links; }
 
 std::optional<LaneIndex> HdMap::findLane(const std::string& id) const {
   return positionOf(content_->map.lane_by_id, id);

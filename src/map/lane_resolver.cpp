@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "external_command/core/text.h"
+#include "lane_checks.h"
 #include "lane_heights.h"
 #include "map_resolver.h"
 #include "warning_counter.h"
@@ -12,7 +13,8 @@ namespace external_command {
 
 namespace {
 
-constexpr double kLengthTolerance = 1.0;  // [m]
+constexpr double kLengthTolerance = 1.0;  // [m], and ...
+constexpr double kLengthShare = 0.02;     // ... this much of the length
 
 const Point2d* findImplausible(const std::vector<Point2d>& points) {
   const auto found = std::find_if_not(points.begin(), points.end(), isPlausible);
@@ -33,7 +35,10 @@ class LaneResolver {
 
   void run() {
     // The look-up table refers to the ids of the lanes, which therefore must not move.
-    map_.lanes.reserve(data_.lanes.size());
+    const auto reversed = std::count_if(data_.lanes.begin(), data_.lanes.end(), [](const LaneData& lane) {
+      return lane.direction == LaneDirection::kBidirection;
+    });
+    map_.lanes.reserve(data_.lanes.size() + static_cast<std::size_t>(reversed));
     has_heights_ = std::any_of(data_.lanes.begin(), data_.lanes.end(), hasHeights);
     for (LaneData& lane : data_.lanes) addLane(&lane);
     for (std::size_t i = 0; i < map_.lanes.size(); ++i) resolveReferences(i);
@@ -81,7 +86,7 @@ void LaneResolver::addLane(LaneData* lane) {
     std::vector<HeightSample> heights;
     if (has_heights_) heights = heightProfile(lane->center, lane->heights);
     Polyline center(lane->center);
-    if (std::abs(center.length() - lane->length) > kLengthTolerance) {
+    if (std::abs(center.length() - lane->length) > kLengthTolerance + kLengthShare * center.length()) {
       lengths_.add(lane->id, ": ", metres(lane->length), " stated, ", metres(center.length()), " measured");
     }
     map_.lanes.push_back({std::move(lane->id),
@@ -244,6 +249,12 @@ void LaneResolver::countMissingNeighbours() {
 
 }  // namespace
 
-void resolveLanes(MapData* data, MapContent* map) { LaneResolver(data, map).run(); }
+void resolveLanes(MapData* data, const MapParams& params, MapContent* map) {
+  stretchPointLanes(data, &map->warnings);
+  LaneResolver(data, map).run();
+  mendNeighbours(map);
+  addReverseLanes(params.max_link_gap, map);
+  checkLinks(params.max_link_gap, map);
+}
 
 }  // namespace external_command

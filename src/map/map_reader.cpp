@@ -84,13 +84,13 @@ MapData readMapData(const std::string& file) {
   return data;
 }
 
-std::shared_ptr<const HdMap> readMap(const std::string& file, const MapOrigin& origin) {
+std::shared_ptr<const HdMap> readMap(const std::string& file, const MapOrigin& origin, const MapParams& params) {
   MapData data = readMapData(file);
   Point2d shift = Point2d::Zero();
   if (origin.kind == MapOrigin::Kind::kAuto) shift = middleOf(data);
   if (origin.kind == MapOrigin::Kind::kGiven) shift = origin.point;
   try {
-    return std::make_shared<const HdMap>(std::move(data), shift);
+    return std::make_shared<const HdMap>(std::move(data), shift, params);
   } catch (const MapError& error) {
     throw MapError(text(file, ": ", error.what()));
   }

@@ -46,7 +46,7 @@ BoundingBox boxOf(const MapContent& map) {
 
 }  // namespace
 
-MapContent resolve(MapData data, const Point2d& origin) {
+MapContent resolve(MapData data, const Point2d& origin, const MapParams& params) {
   if (!origin.allFinite()) throw MapError("the map origin is not finite; give two coordinates in metres");
   MapContent map;
   map.version = std::move(data.version);
@@ -55,7 +55,7 @@ MapContent resolve(MapData data, const Point2d& origin) {
   map.warnings = std::move(data.warnings);
   if (!origin.isZero(0.0)) shift(origin, &data);
   const std::size_t stated = data.lanes.size();
-  resolveLanes(&data, &map);
+  resolveLanes(&data, params, &map);
   if (map.lanes.empty()) {
     throw MapError(stated == 0 ? "the map has no lane in it"
                                : text("none of the map's ", stated, " lanes can be used: ", map.warnings.back().what));

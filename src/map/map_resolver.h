@@ -8,10 +8,10 @@ namespace external_command {
 
 /// Everything the constructor of HdMap promises.
 /// @throws MapError  no usable lane is left.
-MapContent resolve(MapData data, const Point2d& origin);
+MapContent resolve(MapData data, const Point2d& origin, const MapParams& params);
 
 /// The lanes of `data`, moved out of it, with their references; fills `lanes`, `lane_by_id`, `lanes_of_road`.
-void resolveLanes(MapData* data, MapContent* map);
+void resolveLanes(MapData* data, const MapParams& params, MapContent* map);
 
 /// Junctions, parking spaces and areas with the lanes that overlap them; fills in the lanes' `junction_id` where only
 /// an overlap tells it. Needs the lanes and their tree.

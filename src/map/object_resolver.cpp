@@ -145,7 +145,10 @@ void ObjectResolver::addLanesOf(const OverlapData& overlap, std::vector<LaneOver
     if (found == map_.lane_by_id.end()) {
       dangling_.add("lane ", object.id, " of overlap ", overlap.id);
     } else {
-      lanes->push_back(rangeOn(found->second, object));
+      const LaneOverlap range = rangeOn(found->second, object);
+      lanes->push_back(range);
+      const Lane& lane = map_.lanes[range.lane];
+      if (lane.reverse) lanes->push_back({*lane.reverse, lane.length() - range.end_s, lane.length() - range.start_s});
     }
   }
 }

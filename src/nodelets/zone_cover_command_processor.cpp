@@ -6,6 +6,7 @@
 
 #include "area_access.h"
 #include "external_command/core/text.h"
+#include "external_command/map/near_ids.h"
 #include "zone_entry.h"
 #include "zone_resume.h"
 
@@ -111,7 +112,7 @@ const Area& ZoneCoverCommandProcessor::areaOf(const ZoneCoverCommand& command) c
   const Area* area = map.findArea(command.zone_cover_area_id);
   if (area != nullptr) return *area;
   throw InvalidRequest(text("zone_cover_area_id '", command.zone_cover_area_id, "' is none of the ", map.areas().size(),
-                            " areas of the map"));
+                            " areas of the map", nearAreaIds(map, command.zone_cover_area_id)));
 }
 
 CoverageArea ZoneCoverCommandProcessor::zoneOf(const ZoneCoverCommand& command) const {

@@ -23,9 +23,10 @@ Passage toPassage(const HdMap& map, const RoutePassage& passage) {
   msg.change_lane_type = changeTypeOf(passage.change);
   msg.segment.resize(passage.lanes.size());
   for (std::size_t i = 0; i < passage.lanes.size(); ++i) {
-    msg.segment[i].id = map.lane(passage.lanes[i].lane).id;
-    msg.segment[i].start_s = passage.lanes[i].from_s;
-    msg.segment[i].end_s = passage.lanes[i].to_s;
+    const Lane& lane = map.lane(passage.lanes[i].lane);
+    msg.segment[i].id = lane.id;
+    msg.segment[i].start_s = lane.statedS(passage.lanes[i].from_s);
+    msg.segment[i].end_s = lane.statedS(passage.lanes[i].to_s);
   }
   return msg;
 }

@@ -14,9 +14,10 @@ namespace external_command {
 
 namespace {
 
-std::shared_ptr<const Router> load(const std::string& file, const MapOrigin& origin, const RouterParams& params) {
+std::shared_ptr<const Router> load(const std::string& file, const MapOrigin& origin, const MapParams& map_params,
+                                   const RouterParams& params) {
   const ros::WallTime begin = ros::WallTime::now();
-  const auto map = readMap(file, origin);
+  const auto map = readMap(file, origin, map_params);
   auto router = std::make_shared<const Router>(map, params);
   for (const MapWarning& warning : map->warnings()) ROS_WARN_STREAM("map " << file << ": " << warning.what);
   ROS_INFO_STREAM("map " << file << ": " << map->lanes().size() << " lanes, " << map->parkingSpaces().size()
@@ -25,22 +26,23 @@ std::shared_ptr<const Router> load(const std::string& file, const MapOrigin& ori
   return router;
 }
 
-std::string keyOf(const std::string& file, const MapOrigin& origin, const RouterParams& params) {
+std::string keyOf(const std::string& file, const MapOrigin& origin, const MapParams& map_params,
+                  const RouterParams& params) {
   return text(file, "|", static_cast<int>(origin.kind), "|", origin.point.x(), "|", origin.point.y(), "|",
-              params.lane_change_price, "|", params.min_lane_change_length, "|", params.tight_lane_change_price, "|",
-              params.min_turning_radius, "|", params.stopping_error);
+              map_params.max_link_gap, "|", params.lane_change_price, "|", params.min_lane_change_length, "|",
+              params.tight_lane_change_price, "|", params.min_turning_radius, "|", params.stopping_error);
 }
 
 }  // namespace
 
 std::shared_ptr<const Router> sharedRouter(const std::string& file, const MapOrigin& origin,
-                                           const RouterParams& params) {
+                                           const MapParams& map_params, const RouterParams& params) {
   static std::mutex mutex;
   static std::map<std::string, std::weak_ptr<const Router>> loaded;
   const std::lock_guard<std::mutex> lock(mutex);
-  auto& known = loaded[keyOf(file, origin, params)];
+  auto& known = loaded[keyOf(file, origin, map_params, params)];
   auto router = known.lock();
-  if (!router) known = router = load(file, origin, params);
+  if (!router) known = router = load(file, origin, map_params, params);
   return router;
 }
 

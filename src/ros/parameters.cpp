@@ -196,6 +196,13 @@ VehicleParams readVehicleParams(const ParameterReader& reader) {
   return vehicle;
 }
 
+MapParams readMapParams(const ParameterReader& reader) {
+  MapParams params;
+  reader.read("max_link_gap", &params.max_link_gap);
+  reader.validate(params);
+  return params;
+}
+
 RouterParams readRouterParams(const ParameterReader& reader) {
   RouterParams params;
   reader.read("min_lane_change_length", &params.min_lane_change_length);

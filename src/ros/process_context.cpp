@@ -19,7 +19,7 @@ constexpr double kMotionPeriod = 0.1;        // [s]
 
 std::shared_ptr<const Router> routerOf(const ContextParams& params) {
   if (params.map_file.empty()) return nullptr;
-  return sharedRouter(params.map_file, params.map_origin, params.router);
+  return sharedRouter(params.map_file, params.map_origin, params.map, params.router);
 }
 
 /// The context outlives the nodelet that made it, and that nodelet's callback queue.
@@ -63,6 +63,7 @@ ContextParams readContextParams(const ParameterReader& reader) {
   ContextParams params;
   reader.readPath("map_file", &params.map_file);
   params.map_origin = readMapOrigin(reader);
+  params.map = readMapParams(reader.within("map"));
   reader.read("map_frame", &params.map_frame);
   reader.read("base_frame", &params.base_frame);
   params.map_frame = frameId(params.map_frame);

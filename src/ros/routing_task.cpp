@@ -12,10 +12,11 @@ namespace external_command {
 namespace {
 
 LaneWaypoint toMsg(const HdMap& map, const LanePoint& point) {
-  const Pose2d pose = map.lane(point.lane).center.poseAt(point.s);
+  const Lane& lane = map.lane(point.lane);
+  const Pose2d pose = lane.center.poseAt(point.s);
   LaneWaypoint msg;
-  msg.id = map.lane(point.lane).id;
-  msg.s = point.s;
+  msg.id = lane.id;
+  msg.s = lane.statedS(point.s);
   msg.pose = toPointMsg(pose.position());
   msg.heading = pose.heading;
   msg.has_heading = true;

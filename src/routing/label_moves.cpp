@@ -56,19 +56,20 @@ bool LabelSearch::isAhead(const SearchLabel& label, const LanePoint& place, doub
   if (label.lane == place.lane && label.s >= place.s) return label.s - place.s <= reach;
   const double rest = graph_.length(place.lane) - place.s;
   if (rest > reach || lanes == kMaxLanesBehind) return false;
-  const Span<LaneIndex> successors = graph_.successors(place.lane);
-  return std::any_of(successors.begin(), successors.end(), [&](LaneIndex next) {
-    return isAhead(label, {next, 0.0}, reach - rest, lanes + 1);
+  const Span<LaneGraph::Link> successors = graph_.successors(place.lane);
+  return std::any_of(successors.begin(), successors.end(), [&](const LaneGraph::Link& next) {
+    return isAhead(label, {next.lane, next.entry}, reach - rest, lanes + 1);
   });
 }
 
 void LabelSearch::follow(std::int32_t index, const SearchLabel& label) {
   const double length = graph_.length(label.lane);
   if (label.free_to < length) return;
-  for (const LaneIndex next : graph_.successors(label.lane)) {
-    if (blocked_.contains(next, 0.0)) continue;
+  for (const LaneGraph::Link& next : graph_.successors(label.lane)) {
+    if (blocked_.contains(next.lane, next.entry)) continue;
     SearchLabel entry;
-    entry.lane = next;
+    entry.lane = next.lane;
+    entry.s = entry.anchor_s = next.entry;
     entry.distance = label.distance + length - label.s;
     entry.cost = label.cost + length - label.s;
     entry.parent = index;
@@ -151,23 +152,27 @@ void LabelSearch::crossOn(std::int32_t index, const LanePair& pair, const Crossi
   const bool old_ends = pair.a_to > graph_.length(crossing.old_lane) - kSamePlace;
   const bool new_ends = pair.b_to > graph_.length(pair.b) - kSamePlace;
   if (!old_ends && !new_ends) return;
-  const auto old_lanes = old_ends ? graph_.successors(crossing.old_lane) : Span<LaneIndex>(&crossing.old_lane);
-  const auto new_lanes = new_ends ? graph_.successors(pair.b) : Span<LaneIndex>(&pair.b);
-  const double old_s = old_ends ? 0.0 : pair.a_to;
-  const double new_s = new_ends ? 0.0 : pair.b_to;
-  for (const LaneIndex old_lane : old_lanes) {
-    for (const LaneIndex new_lane : new_lanes) {
-      const Neighbour* next = graph_.findNeighbour(old_lane, new_lane, pair.side);
-      if (next == nullptr) continue;
-      const double new_to = abreastUntil(graph_, blocked_, {old_lane, old_s}, *next, new_s);
-      if (new_to <= new_s) continue;
-      // The lanes may part, or bend, further on.
-      const bool needs_room = rule_ == ChangeRule::kWithRoom;
-      const double more = needs_room ? std::max(0.0, graph_.changeNeed(*next, old_s) - crossing.length) : 0.0;
-      cross(index, *next, old_s, {new_s, new_to},
-            {old_lane, crossing.length + more, crossing.rest + more, 0.0, crossing.pieces});
+  const LaneGraph::Link old_link{crossing.old_lane, pair.a_to}, new_link{pair.b, pair.b_to};
+  const auto old_links = old_ends ? graph_.successors(crossing.old_lane) : Span<LaneGraph::Link>(&old_link);
+  const auto new_links = new_ends ? graph_.successors(pair.b) : Span<LaneGraph::Link>(&new_link);
+  for (const LaneGraph::Link& old_lane : old_links) {
+    for (const LaneGraph::Link& new_lane : new_links) {
+      const Neighbour* next = graph_.findNeighbour(old_lane.lane, new_lane.lane, pair.side);
+      if (next != nullptr) crossOn(index, *next, old_lane, new_lane, crossing);
     }
   }
+}
+
+void LabelSearch::crossOn(std::int32_t index, const Neighbour& next, const LaneGraph::Link& old_lane,
+                          const LaneGraph::Link& new_lane, const Crossing& crossing) {
+  const double old_s = old_lane.entry, new_s = new_lane.entry;
+  const double new_to = abreastUntil(graph_, blocked_, {old_lane.lane, old_s}, next, new_s);
+  if (new_to <= new_s) return;
+  // The lanes may part, or bend, further on.
+  const bool needs_room = rule_ == ChangeRule::kWithRoom;
+  const double more = needs_room ? std::max(0.0, graph_.changeNeed(next, old_s) - crossing.length) : 0.0;
+  cross(index, next, old_s, {new_s, new_to},
+        {old_lane.lane, crossing.length + more, crossing.rest + more, 0.0, crossing.pieces});
 }
 
 }  // namespace external_command

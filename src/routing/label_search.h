@@ -84,6 +84,8 @@ class LabelSearch {
   void change(std::int32_t index, const Neighbour& neighbour, double old_s, const Interval& new_part, double need);
   void cross(std::int32_t index, const Neighbour& neighbour, double old_s, const Interval& new_part, Crossing crossing);
   void crossOn(std::int32_t index, const LanePair& pair, const Crossing& crossing);
+  void crossOn(std::int32_t index, const Neighbour& next, const LaneGraph::Link& old_lane,
+               const LaneGraph::Link& new_lane, const Crossing& crossing);
 
   const LaneGraph& graph_;
   const RouterParams& params_;

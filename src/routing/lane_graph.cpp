@@ -18,8 +18,8 @@ LaneGraph::LaneGraph(const HdMap& map, const RouterParams& params) {
     first_neighbour_.push_back(static_cast<std::uint32_t>(neighbours_.size()));
     if (!routable_[i]) continue;
     const Lane& lane = map.lane(i);
-    for (const LaneIndex next : lane.successors) {
-      if (routable_[next]) successors_.push_back(next);
+    for (std::size_t k = 0; k < lane.successors.size(); ++k) {
+      if (routable_[lane.successors[k]]) successors_.push_back({lane.successors[k], lane.entries[k]});
     }
     for (const LaneIndex other : lane.left_forward) {
       addNeighbour(map, i, other, LaneChange::kLeft, params.min_turning_radius);

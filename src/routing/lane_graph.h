@@ -25,6 +25,12 @@ class Span {
 /// The routable lanes of a map as flat arrays: which lane leads into which, and which lies beside which. Immutable.
 class LaneGraph {
  public:
+  /// A lane that follows another, which ends beside `entry` on it [m].
+  struct Link {
+    LaneIndex lane;
+    double entry;
+  };
+
   /// A lane beside another, where the line between them may be crossed, and the room that takes.
   struct Neighbour {
     LanePair pair;
@@ -38,7 +44,7 @@ class LaneGraph {
   double length(LaneIndex lane) const { return lengths_[lane]; }
   bool isRoutable(LaneIndex lane) const { return routable_[lane]; }
 
-  Span<LaneIndex> successors(LaneIndex lane) const {
+  Span<Link> successors(LaneIndex lane) const {
     return {successors_.data() + first_successor_[lane], successors_.data() + first_successor_[lane + 1]};
   }
 
@@ -68,7 +74,7 @@ class LaneGraph {
   std::vector<double> lengths_;
   std::vector<bool> routable_;
   std::vector<std::uint32_t> first_successor_, first_neighbour_;
-  std::vector<LaneIndex> successors_;
+  std::vector<Link> successors_;
   std::vector<Neighbour> neighbours_;
   std::vector<Interval> parts_;
   std::vector<ChangeNeed> needs_;

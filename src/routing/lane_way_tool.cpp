@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "external_command/core/text.h"
+#include "external_command/map/near_ids.h"
 
 namespace external_command {
 
@@ -113,7 +114,8 @@ std::vector<LanePoint> LaneWayTool::fromPose(const Point2d& point, const std::op
 
 LanePoint LaneWayTool::fromLane(const std::string& id, double s, const std::string& name) const {
   const auto index = map_.findLane(id);
-  if (!index) throw InvalidRequest(text(name, " names lane '", id, "', which the map does not have"));
+  if (!index)
+    throw InvalidRequest(text(name, " names lane '", id, "', which the map does not have", nearLaneIds(map_, id)));
   const Lane& lane = map_.lane(*index);
   if (!lane.isDrivable()) throw InvalidRequest(text(name, " names lane ", id, ", which is not for driving"));
   if (!(s >= -kBesideLane && s <= lane.length() + kBesideLane)) {  // catches NaN
@@ -149,8 +151,8 @@ std::vector<LanePoint> LaneWayTool::fromVehicle(const Pose2d& vehicle, const std
 std::vector<LanePoint> LaneWayTool::fromParkingSpace(const std::string& id, bool* used_geometry) const {
   const ParkingSpace* space = map_.findParkingSpace(id);
   if (space == nullptr) {
-    throw InvalidRequest(
-        text("parking_spot_id '", id, "' is none of the map's ", map_.parkingSpaces().size(), " parking spaces"));
+    throw InvalidRequest(text("parking_spot_id '", id, "' is none of the map's ", map_.parkingSpaces().size(),
+                              " parking spaces", nearParkingSpaceIds(map_, id)));
   }
   Point2d middle = Point2d::Zero();
   for (const Point2d& corner : space->polygon.points()) middle += corner / space->polygon.points().size();

@@ -2,8 +2,10 @@
 #include "no_route.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "external_command/core/text.h"
+#include "missing_links.h"
 #include "route_builder.h"
 #include "route_search.h"
 
@@ -27,7 +29,8 @@ const std::vector<LanePoint>& candidatesOf(const RouteQuery& query, std::size_t 
 std::string described(const HdMap& map, const RouteQuery& query, std::size_t index) {
   const std::vector<LanePoint>& candidates = candidatesOf(query, index);
   const LanePoint& first = candidates.front();
-  const std::string place = text("lane ", map.lane(first.lane).id, " at ", metres(first.s));
+  const Lane& lane = map.lane(first.lane);
+  const std::string place = text("lane ", lane.id, " at ", metres(lane.statedS(first.s)));
   if (candidates.size() == 1) return text(pointName(query, index), " (", place, ")");
   return text(pointName(query, index), " (", candidates.size(), " candidates, the first ", place, ")");
 }
@@ -48,13 +51,17 @@ std::string cutLanes(const HdMap& map, const std::vector<LaneRange>& black_list,
   return names;
 }
 
-/// The first change of a route that was found without asking for room, if there is one.
+/// The change with the least room of a route that was found without asking for room, if it has one.
 std::string tightChange(const HdMap& map, const Route& route) {
+  std::optional<std::size_t> tightest;
   for (std::size_t i = 0; i + 1 < route.steps.size(); ++i) {
     if (route.steps[i].change_after == LaneChange::kNone) continue;
-    return text("from lane ", map.lane(route.steps[i].lane).id, " to lane ", map.lane(route.steps[i + 1].lane).id);
+    if (!tightest || route.steps[i].change_room < route.steps[*tightest].change_room) tightest = i;
   }
-  return "";
+  if (!tightest) return "";
+  const RouteStep& step = route.steps[*tightest];
+  return text("from lane ", map.lane(step.lane).id, " to lane ", map.lane(route.steps[*tightest + 1].lane).id, " (",
+              metres(step.change_room), ")");
 }
 
 }  // namespace
@@ -78,21 +85,22 @@ std::string whyNoRoute(const HdMap& map, const LaneGraph& graph, const RouterPar
     const SearchResult unblocked = searchRoute(graph, params, ChangeRule::kWithRoom, query, free, cancel);
     if (!unblocked.labels.empty()) {
       const std::string cut = cutLanes(map, query.black_list, buildRoute(graph, free, unblocked.labels));
-      return text(
-          what, ": the black list ",
-          change.empty() ? text("cuts it at lane ", cut) : text("leaves no room to change lanes, ", change, " for one"),
-          "; without the black list there is a route");
+      return text(what, ": the black list ",
+                  change.empty() ? text("cuts it at lane ", cut) : text("leaves no room to change lanes, ", change),
+                  "; without the black list there is a route");
     }
   }
   if (!change.empty()) {
-    return text(what, ": there is no room to change lanes, ", change, " for one; a change needs ",
+    return text(what, ": there is no room to change lanes, ", change, "; a change needs ",
                 metres(params.min_lane_change_length),
                 " (~min_lane_change_length), or at least two arcs of the turning radius of ",
                 metres(params.min_turning_radius));
   }
   return text(what, ": ", failed.reached_lanes, " lanes of ", map.lanes().size(),
               " were reached, none of which leads there",
-              query.black_list.empty() ? "" : ", with or without the black list");
+              query.black_list.empty() ? "" : ", with or without the black list",
+              missingLink(map, graph, candidatesOf(query, failed.failed_leg),
+                          candidatesOf(query, failed.failed_leg + 1), cancel));
 }
 
 }  // namespace external_command

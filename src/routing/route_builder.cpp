@@ -68,7 +68,7 @@ void addLabel(const LaneGraph& graph, const SearchLabel& label, Course* course) 
   }
   if (label.move == Move::kFollow) {
     extendTo(graph.length(pieces.back().lane), &pieces);
-    return beginPiece(label.lane, 0.0, &pieces);
+    return beginPiece(label.lane, label.s, &pieces);
   }
   if (label.move == Move::kChange) {
     extendTo(label.change_s, &pieces);
@@ -122,10 +122,10 @@ class OldLane {
   /// `new_lane` as the neighbour of the old lane, or, where the old one is at its end, of a lane that follows it.
   const LaneGraph::Neighbour* neighbourAt(LaneIndex new_lane) {
     if (place_.s < graph_.length(place_.lane) - kTiny) return graph_.findNeighbour(place_.lane, new_lane, side_);
-    for (const LaneIndex next : graph_.successors(place_.lane)) {
-      const LaneGraph::Neighbour* neighbour = graph_.findNeighbour(next, new_lane, side_);
+    for (const LaneGraph::Link& next : graph_.successors(place_.lane)) {
+      const LaneGraph::Neighbour* neighbour = graph_.findNeighbour(next.lane, new_lane, side_);
       if (neighbour == nullptr) continue;
-      place_ = {next, 0.0};
+      place_ = {next.lane, next.entry};
       return neighbour;
     }
     return nullptr;

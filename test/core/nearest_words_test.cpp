@@ -20,6 +20,7 @@ TEST(NearestWords, OfferWhatAMistypedWordWasMeantToBe) {
 TEST(NearestWords, OfferAllThatAreEquallyNearButNotMoreThanThree) {
   const Words known = {"lane_1", "lane_2", "lane_3", "lane_4", "road_1"};
   EXPECT_EQ(didYouMean("lane_1x", Words{"lane_12", "lane_1"}), "; did you mean 'lane_12' or 'lane_1'?");
+  EXPECT_EQ(didYouMean("road_2", Words{"road_1", "road_1"}), "; did you mean 'road_1'?") << "each once";
   EXPECT_EQ(didYouMean("lane_9", known), "; did you mean 'lane_1', 'lane_2' or 'lane_3'?");
 }
 

@@ -171,11 +171,12 @@ TEST_F(TwoLaneRoad, InventsNoNeighboursAndSaysSo) {
 }
 
 TEST_F(TwoLaneRoad, LetsALaneLeadIntoItselfButNotLieBesideItself) {
-  builder["left"].successors.push_back("left");
-  builder["left"].left_forward.push_back("left");
+  builder.lane("ring", {{0, 50}, {50, 50}, {50, 80}, {0, 80}, {0, 50}}).follow({"ring", "ring"});
+  builder["ring"].left_forward.push_back("ring");
   const auto map = builder.build();
-  EXPECT_EQ(map->lane(laneIndex(*map, "left")).successors.size(), 2u);
-  EXPECT_TRUE(map->lane(laneIndex(*map, "left")).left_forward.empty());
+  const LaneIndex ring = laneIndex(*map, "ring");
+  EXPECT_EQ(map->lane(ring).successors, Indices{ring});
+  EXPECT_TRUE(map->lane(ring).left_forward.empty());
 }
 
 TEST_F(TwoLaneRoad, SubtractsTheOriginFromEverything) {

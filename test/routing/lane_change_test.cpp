@@ -80,6 +80,14 @@ TEST_F(TwoLanes, ChangesOverDottedUnknownVirtualAndUnstatedLines) {
   EXPECT_NEAR(drive({"b1", 10}, {"a1", 90}).distance, 80.0, 1e-9);
 }
 
+TEST_F(TwoLanes, SaysWhereALineMayNotBeCrossed) {
+  for (const char* i : {"1", "2", "3"}) {
+    drawLine(std::string("a") + i, std::string("b") + i, {{0.0, BoundaryType::kSolidWhite}});
+  }
+  EXPECT_THAT_REFUSED(drive({"b1", 10}, {"a3", 90}), NoRoute,
+                      "lies beside lane b1, but the line between them may not be crossed");
+}
+
 TEST_F(TwoLanes, TakesTheLineAsTheOtherLaneStatesItWhereItsOwnDoesNot) {
   builder["b1"].left.types.clear();
   builder["a1"].right.types = {{0.0, BoundaryType::kSolidWhite}};
@@ -162,8 +170,8 @@ TEST_F(TwoLanes, PassesABlackListedPartOnTheLaneBesideIt) {
 
 TEST_F(TwoLanes, CannotPassABlackListedPartWithoutRoomBeforeIt) {
   EXPECT_THAT_REFUSED(drive({"a1", 35}, {}, {"a2", 50}, {{"a1", 40, 60}}), NoRoute,
-                      "the black list leaves no room to change lanes, from lane a1 to lane b1 for one; without the "
-                      "black list there is a route");
+                      "the black list leaves no room to change lanes, from lane a1 to lane b1 (5.00 m); "
+                      "without the black list there is a route");
 }
 
 TEST_F(TwoLanes, CannotPassABlackListThatCoversBothLanes) {

@@ -107,6 +107,7 @@ TEST_F(TwoWayRoad, TakesALaneByItsId) {
 
 TEST_F(TwoWayRoad, RefusesALaneThatIsNotThereOrNotForDriving) {
   EXPECT_THAT_REFUSED(tool().fromLane("west", 1, "waypoint[0]"), InvalidRequest, "waypoint[0] names lane 'west'");
+  EXPECT_THAT_REFUSED(tool().fromLane("nroth", 1, "waypoint[0]"), InvalidRequest, "; did you mean 'north'?");
   EXPECT_THAT_REFUSED(tool().fromLane("path", 1, "waypoint[0]"), InvalidRequest, "path, which is not for driving");
   EXPECT_THAT_REFUSED(tool().fromLane("north", 101, "waypoint[0]"), InvalidRequest, "goes from 0 to 100.00 m");
   EXPECT_THAT_REFUSED(tool().fromLane("north", NAN, "waypoint[0]"), InvalidRequest, "goes from 0 to 100.00 m");
@@ -170,6 +171,7 @@ TEST_F(TwoWayRoad, ParksFromTheLanesAroundWhereTheMapHasNoOverlaps) {
   EXPECT_EQ(tool().fromParkingSpace("P3", nullptr).size(), 2u) << "it overlaps no lane for driving";
   EXPECT_THAT_REFUSED(tool().fromParkingSpace("P2", nullptr), OffMap, "within 20.00 m (~parking_lane_radius)");
   EXPECT_THAT_REFUSED(tool().fromParkingSpace("P9", nullptr), InvalidRequest, "parking_spot_id 'P9'");
+  EXPECT_THAT_REFUSED(tool().fromParkingSpace("P_1", nullptr), InvalidRequest, "; did you mean 'P1'?");
 }
 
 TEST_F(TwoWayRoad, RefusesParametersOutOfRange) {

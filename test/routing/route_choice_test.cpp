@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "external_command/map/map_reader.h"
+#include "external_command/routing/black_list.h"
 #include "external_command/routing/lane_way_tool.h"
 #include "support/map_builder.h"
 #include "support/route_matchers.h"
@@ -33,6 +34,7 @@ class Trip {
 
   Route drive(const Pose2d& vehicle, const Place& goal) const { return drive(vehicle, {}, goal); }
   std::string ids(const Route& route) const { return laneIds(route, *map_); }
+  const HdMap& map() const { return *map_; }
 
  private:
   std::vector<LanePoint> points(const Place& place) const {
@@ -118,6 +120,50 @@ TEST(TwoWayLane, IsDrivenInTheDirectionThatLeadsToTheGoal) {
   EXPECT_NEAR(west.distance, 100.0, 1e-9);
   EXPECT_EQ(trip.ids(trip.drive({50, 0, 0}, {150, 0})), "east");
   EXPECT_THROW(trip.drive({50, 0, 0}, {150, 0, M_PI}), NoRoute) << "there is nowhere to turn round";
+}
+
+/// One lane for both directions, and one whose direction is said to be BACKWARD.
+class OneLaneForBothDirections : public testing::Test {
+ protected:
+  static std::shared_ptr<const HdMap> build() {
+    MapBuilder builder;
+    builder.lane("two_way", {0, 0}, {200, 0}).lane("back", {200, 50}, {0, 50});
+    builder["two_way"].direction = LaneDirection::kBidirection;
+    builder["back"].direction = LaneDirection::kBackward;
+    return builder.build();
+  }
+  const Trip trip{build()};
+};
+
+TEST_F(OneLaneForBothDirections, IsDrivenEitherWay) {
+  EXPECT_NEAR(trip.drive({50, 0, 0}, {150, 0}).distance, 100.0, 1e-9);
+  const Route west = trip.drive({150, 0, M_PI}, {50, 0});
+  EXPECT_EQ(trip.ids(west), "two_way");
+  EXPECT_NEAR(west.distance, 100.0, 1e-9);
+  EXPECT_NEAR(trip.map().lane(west.steps[0].lane).statedS(west.steps[0].from_s), 150.0, 1e-9);
+  EXPECT_THROW(trip.drive({150, 0, M_PI}, {180, 0}), NoRoute) << "there is nowhere to turn round";
+}
+
+TEST_F(OneLaneForBothDirections, IsDrivenAlongItsCentreLineWhereItSaysBackward) {
+  EXPECT_NEAR(trip.drive({150, 50, M_PI}, {50, 50}).distance, 100.0, 1e-9);
+}
+
+TEST_F(OneLaneForBothDirections, IsBlackListedInBoth) {
+  const auto ranges = blackList(trip.map(), {{"two_way", 60.0, 70.0}}, {});
+  ASSERT_EQ(ranges.size(), 2u);
+  EXPECT_NEAR(ranges[1].from_s, 130.0, 1e-9);
+  EXPECT_NEAR(ranges[1].to_s, 140.0, 1e-9);
+}
+
+/// Lane b begins 3 m before lane a ends.
+TEST(OverlappingLanes, AreDrivenStraightOn) {
+  MapBuilder builder;
+  builder.lane("a", {0, 0}, {50, 0}).lane("b", {47, 0}, {100, 0}).follow({"a", "b"});
+  const Trip trip(builder.build());
+  const Route route = trip.drive({5, 0, 0}, {90, 0});
+  EXPECT_NEAR(route.distance, 85.0, 1e-9);
+  ASSERT_EQ(route.steps.size(), 2u);
+  EXPECT_NEAR(route.steps[1].from_s, 3.0, 1e-9);
 }
 
 ///   n_west <------------- a ring road: the far lane is reached by way of the end

@@ -87,6 +87,29 @@ TEST_F(Ring, SaysHowManyLanesWereReached) {
   EXPECT_THAT_REFUSED(drive({"d", 60}, {"a", 0}), NoRoute, "1 lanes of 4 were reached");
 }
 
+TEST_F(Ring, SaysWhichLinkIsMissing) {
+  builder["a"].successors.clear();
+  EXPECT_THAT_REFUSED(drive({"a", 10}, {"c", 50}), NoRoute,
+                      "lane a ends where lane b begins, 0.00 m apart, but the map does not link them");
+  builder["b"].successors = {"d"};
+  EXPECT_THAT_REFUSED(drive({"a", 10}, {"c", 50}), NoRoute, "lane a ends where lane b begins");
+}
+
+TEST_F(Ring, SaysWhichLinkHasTooLargeAGap) {
+  for (Point2d& point : builder["d"].center) point.x() += 14.0;
+  EXPECT_THAT_REFUSED(drive({"a", 10}, {"d", 50}), NoRoute,
+                      "the link from lane b to lane d is not driven, its ends lie 14.00 m apart (~map/max_link_gap)");
+}
+
+TEST_F(Ring, SaysNothingOfLinksThatWouldNotHelp) {
+  try {
+    drive({"d", 60}, {"d", 40});
+    ADD_FAILURE();
+  } catch (const NoRoute& refused) {
+    EXPECT_EQ(std::string(refused.what()).find("but the map"), std::string::npos) << refused.what();
+  }
+}
+
 TEST_F(Ring, PassesWayPointsInOrder) {
   const Route route = drive({"a", 10}, {{{"c", 20}}, {{"b", 20}}}, {"c", 30});
   EXPECT_EQ(ids(route), "a b c a b c");

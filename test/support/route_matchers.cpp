@@ -34,11 +34,18 @@ AssertionResult liesOnLane(const LaneRange& part, const HdMap& map) {
   return AssertionFailure() << lane.id << " from " << part.from_s << " to " << part.to_s << " of " << lane.length();
 }
 
+/// Lanes may overlap: then the next one is entered where the one before ends.
+bool meets(const Lane& lane, const LaneRange& next, const HdMap& map) {
+  if (next.from_s < kExact) return true;
+  const FrenetPoint end = map.lane(next.lane).center.project(lane.center.points().back());
+  return std::abs(end.s - next.from_s) < kExact;
+}
+
 AssertionResult leadsOn(const LaneRange& from, const LaneRange& to, const HdMap& map) {
   const Lane& lane = map.lane(from.lane);
   const bool goes_on = from.lane == to.lane && std::abs(from.to_s - to.from_s) < kExact;
   const bool follows =
-      has(lane.successors, to.lane) && std::abs(from.to_s - lane.length()) < kExact && to.from_s < kExact;
+      has(lane.successors, to.lane) && std::abs(from.to_s - lane.length()) < kExact && meets(lane, to, map);
   if (goes_on || follows) return AssertionSuccess();
   return AssertionFailure() << lane.id << " at " << from.to_s << " of " << lane.length() << " does not lead to "
                             << map.lane(to.lane).id << " at " << to.from_s;

@@ -16,7 +16,7 @@ class NearestWords {
   /// O(letters), with a small factor: hundreds of thousands of words take some 10 ms.
   void offer(const std::string& known);
 
-  /// The nearest ones, all equally near, as they were offered, at most three; empty where none is near.
+  /// The nearest ones, all equally near, as they were offered, each once, at most three; empty where none is near.
   const std::vector<std::string>& words() const { return words_; }
 
   /// "; did you mean 'n_out_5' or 'n_out_6'?", to end an error text; empty where no word is near.

@@ -32,12 +32,19 @@ struct Lane {
   LaneType type;
   LaneTurn turn;
   LaneDirection direction;
-  std::vector<LaneIndex> predecessors, successors;
+  std::vector<LaneIndex> predecessors, successors;     ///< where routes lead; the file's, but for the gaps
   std::vector<LaneIndex> left_forward, right_forward;  ///< neighbours in the same direction, drivable or not
   std::vector<LaneIndex> left_reverse, right_reverse;  ///< neighbours in the opposite direction
   std::string road_id;                                 ///< empty where no road names the lane
   std::string junction_id;                             ///< empty outside junctions
   std::vector<HeightSample> heights;                   ///< to about 0.1 m; empty where the map gives none
+  /// Of each successor: the place on it where this lane ends; above 0 where the successor begins before that [m].
+  std::vector<double> entries = {};
+  std::optional<LaneIndex> reverse = {};  ///< the same lane driven the other way, of a lane of both directions
+  bool is_reversed = false;               ///< driven against the centre line of the file, whose id it has
+
+  /// Arc length along the centre line of the file [m].
+  double statedS(double s) const { return is_reversed ? length() - s : s; }
 
   double length() const { return center.length(); }
 
@@ -56,6 +63,19 @@ struct LaneOverlap {
   LaneIndex lane;
   double start_s;  ///< [m]
   double end_s;    ///< [m]
+};
+
+/// A link of the file that is not driven, as its ends lie too far apart.
+struct BrokenLink {
+  LaneIndex from = 0, onto = 0;
+  double gap = 0.0;  ///< [m]
+};
+
+struct MapParams {
+  double max_link_gap = 2.0;  ///< links whose ends lie further apart are not driven [m]
+
+  /// @throws InvalidParameter  out of range.
+  void validate() const;
 };
 
 struct Junction {
@@ -104,12 +124,20 @@ struct LaneMatch {
 /// - heading of a parking space, where it is missing or lies across the space: along the longer side, away from the
 ///   nearest drivable lane; with the traffic where the space lies along the lane.
 ///
+/// - the other direction of a driving lane of both directions: a lane of its own with the same id (*), see
+///   Lane::reverse. What else `direction` says decides nothing: lanes are driven along their centre lines.
+/// - the centre line of a lane of no length, just over 1 mm long, so that it keeps its links.
+/// - the side of a neighbour, where it clearly lies on the other than the file states.
+///
 /// Done without: neighbours (never derived: nothing says which line may be crossed), overlaps of parking spaces, speed
 /// limits (*), widths (*, see Lane::widthAt).
 ///
 /// Dropped: lanes without an id, with an earlier lane's id, with fewer than two distinct points, with a coordinate that
 /// is not finite or beyond 1e8 m; references and overlaps that dangle; boundaries, widths and speed limits out of
-/// range; junctions, parking spaces and areas whose polygon is not simple.
+/// range; junctions, parking spaces and areas whose polygon is not simple; forward neighbours that run the other way or
+/// lie too far off; links whose ends lie further apart than MapParams::max_link_gap, see brokenLinks().
+///
+/// Counted, the worst named: links whose ends do not meet, overlap, or jump in heading; centre lines that fold back.
 ///
 /// What a file states is otherwise left as it is: a successor need not name the lane as its predecessor.
 class HdMap {
@@ -117,7 +145,7 @@ class HdMap {
   /// Resolves, derives and drops as above. O(n log n).
   /// @param origin  is subtracted from every coordinate [m].
   /// @throws MapError  no usable lane is left.
-  HdMap(MapData data, const Point2d& origin);
+  HdMap(MapData data, const Point2d& origin, const MapParams& params = {});
   ~HdMap();
   HdMap(const HdMap&) = delete;
   HdMap& operator=(const HdMap&) = delete;
@@ -133,7 +161,9 @@ class HdMap {
   const std::vector<ParkingSpace>& parkingSpaces() const;
   const std::vector<Area>& areas() const;
   const std::vector<MapWarning>& warnings() const;
+  const std::vector<BrokenLink>& brokenLinks() const;
 
+  /// In the direction of its centre line.
   std::optional<LaneIndex> findLane(const std::string& id) const;
   const ParkingSpace* findParkingSpace(const std::string& id) const;  ///< nullptr where there is none
   const Area* findArea(const std::string& id) const;                  ///< nullptr where there is none

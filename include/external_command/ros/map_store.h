@@ -13,6 +13,6 @@ namespace external_command {
 /// Forgotten when nobody holds it any more. Logs the map's warnings. Thread-safe.
 /// @throws MapError  the file cannot be used.
 std::shared_ptr<const Router> sharedRouter(const std::string& file, const MapOrigin& origin,
-                                           const RouterParams& params);
+                                           const MapParams& map_params, const RouterParams& params);
 
 }  // namespace external_command

@@ -71,6 +71,7 @@ std::vector<std::string> missingVehicleSizes(const ParameterReader& reader);
 
 /// Readers of the plain structs; each validates what it read. That of the vehicle wants every size to be set.
 VehicleParams readVehicleParams(const ParameterReader& reader);
+MapParams readMapParams(const ParameterReader& reader);
 RouterParams readRouterParams(const ParameterReader& reader);
 LaneWayParams readLaneWayParams(const ParameterReader& reader);
 ReferencePathParams readReferencePathParams(const ParameterReader& reader);

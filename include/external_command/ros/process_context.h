@@ -26,6 +26,7 @@ namespace external_command {
 struct ContextParams {
   std::string map_file;  ///< empty: no map
   MapOrigin map_origin;
+  MapParams map;
   std::string map_frame = "map";
   std::string base_frame = "base_link";
   double max_pose_age = 1.0;             ///< an older vehicle pose counts as missing [s]

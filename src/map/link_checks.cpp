@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "lane_checks.h"
+#include "worst_counter.h"
+
+namespace external_command {
+
+namespace {
+
+constexpr double kMeet = 0.05;        // [m]; ends no further apart meet
+constexpr double kOddGap = 0.3;       // [m]; what is less is the drawing's precision
+constexpr double kMaxOverlap = 20.0;  // [m]
+constexpr double kOnLane = 1.0;       // [m] between two lanes that overlap
+constexpr double kKink = 1.0;         // [rad]
+constexpr double kFoldTurn = 2.1;     // [rad]
+constexpr double kOddFold = 0.1;      // [m]
+
+double startHeading(const Polyline& line) { return headingOf(line.points()[1] - line.points()[0]); }
+
+double endHeading(const Polyline& line) {
+  const std::vector<Point2d>& points = line.points();
+  return headingOf(points.back() - points[points.size() - 2]);
+}
+
+/// How one lane goes over into the next.
+struct Joint {
+  double gap = 0.0;    // from the end of the one to where the next is entered [m]
+  double entry = 0.0;  // where on the next lane that is; above 0 where it begins before the other ends [m]
+  double turn = 0.0;   // of the heading [rad]
+};
+
+Joint jointOf(const Polyline& from, const Polyline& onto) {
+  const Point2d end = from.points().back();
+  const double gap = (onto.points().front() - end).norm();
+  Joint joint{gap, 0.0, std::abs(angleBetween(endHeading(from), startHeading(onto)))};
+  if (gap <= kMeet) return joint;
+  const FrenetPoint foot = onto.project(end);
+  const double turn = std::abs(angleBetween(endHeading(from), onto.headingAt(foot.s)));
+  const bool overlaps = foot.s > kMeet && foot.s <= kMaxOverlap && foot.s < onto.length() - kMeet &&
+                        foot.distance <= std::min(kOnLane, gap) && turn < M_PI / 2.0;
+  return overlaps ? Joint{foot.distance, foot.s, turn} : joint;
+}
+
+class LinkCheck {
+ public:
+  LinkCheck(double max_gap, MapContent* map) : max_gap_(max_gap), map_(*map) {}
+
+  void run() {
+    for (std::size_t i = 0; i < map_.lanes.size(); ++i) {
+      checkLinksOf(static_cast<LaneIndex>(i));
+      if (!map_.lanes[i].is_reversed) checkFolds(map_.lanes[i]);
+    }
+    for (const WorstCounter* counter : {&broken_, &gaps_, &overlaps_, &kinks_, &folds_})
+      counter->report(&map_.warnings);
+  }
+
+ private:
+  void checkLinksOf(LaneIndex index) {
+    Lane& lane = map_.lanes[index];
+    std::vector<LaneIndex> kept;
+    for (const LaneIndex next : lane.successors) {
+      const Lane& onto = map_.lanes[next];
+      const Joint joint = jointOf(lane.center, onto.center);
+      const bool is_driven = lane.isDrivable() && onto.isDrivable();
+      if (is_driven && joint.gap > max_gap_) {
+        drop(index, next, joint.gap);
+        continue;
+      }
+      kept.push_back(next);
+      lane.entries.push_back(joint.entry);
+      if (is_driven) count(lane, onto, joint);
+    }
+    lane.successors = std::move(kept);
+  }
+
+  void drop(LaneIndex from, LaneIndex onto, double gap) {
+    // A lane of both directions may be meant the other way.
+    const auto leads = [this](LaneIndex a, LaneIndex b) {
+      const std::vector<LaneIndex>& next = map_.lanes[a].successors;
+      return std::find(next.begin(), next.end(), b) != next.end();
+    };
+    const Lane &lane = map_.lanes[from], &next = map_.lanes[onto];
+    if (lane.reverse && (leads(*lane.reverse, onto) || leads(onto, *lane.reverse))) return;
+    if (next.reverse && (leads(from, *next.reverse) || leads(*next.reverse, from))) return;
+    broken_.add(gap, lane.id, " to ", next.id, ", ", metres(gap));
+    map_.broken_links.push_back({from, onto, gap});
+  }
+
+  void count(const Lane& lane, const Lane& next, const Joint& joint) {
+    if (joint.gap > kOddGap) gaps_.add(joint.gap, lane.id, " to ", next.id, ", ", metres(joint.gap));
+    if (joint.entry > kOddGap) overlaps_.add(joint.entry, lane.id, " and ", next.id, ", by ", metres(joint.entry));
+    if (joint.turn > kKink) kinks_.add(joint.turn, lane.id, " to ", next.id, ", by ", joint.turn, " rad");
+  }
+
+  void checkFolds(const Lane& lane) {
+    const std::vector<Point2d>& line = lane.center.points();
+    for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+      const Point2d in = line[i] - line[i - 1], out = line[i + 1] - line[i];
+      const double back = std::min(in.norm(), out.norm());
+      if (back < kOddFold || std::abs(angleBetween(headingOf(in), headingOf(out))) < kFoldTurn) continue;
+      folds_.add(back, lane.id, " at ", at(line[i]), ", by ", metres(back));
+    }
+  }
+
+  const double max_gap_;
+  MapContent& map_;
+  WorstCounter broken_{"links that are not driven, as their ends lie too far apart (map/max_link_gap)"};
+  WorstCounter gaps_{"links whose ends do not meet"};
+  WorstCounter overlaps_{"linked lanes that overlap"};
+  WorstCounter kinks_{"links at which the heading jumps"};
+  WorstCounter folds_{"places at which a centre line folds back on itself"};
+};
+
+}  // namespace
+
+void checkLinks(double max_gap, MapContent* map) { LinkCheck(max_gap, map).run(); }
+
+}  // namespace external_command

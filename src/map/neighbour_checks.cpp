@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "lane_checks.h"
+#include "warning_counter.h"
+#include "worst_counter.h"
+
+namespace external_command {
+
+namespace {
+
+constexpr double kClearlyBeside = 0.5;  // [m]; what lies nearer to the centre line lies on neither side
+constexpr double kMaxDistance = 10.0;   // [m] between the centre lines, where they are nearest
+constexpr double kAtEnd = 0.001;        // [m]
+
+/// Where a neighbour lies, seen from a lane.
+struct Beside {
+  double distance = std::numeric_limits<double>::infinity();  // where they are nearest [m]
+  double l = 0.0;     // to the left where positive, where they are furthest apart; 0 where they never lie abreast [m]
+  double turn = 0.0;  // between the headings there [rad]
+};
+
+/// By a few places along `other`.
+Beside besideOf(const Polyline& lane, const Polyline& other) {
+  Beside beside;
+  for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    const double s = share * other.length();
+    const FrenetPoint foot = lane.project(other.pointAt(s));
+    beside.distance = std::min(beside.distance, foot.distance);
+    const bool is_abreast = foot.s > kAtEnd && foot.s < lane.length() - kAtEnd && foot.distance <= kMaxDistance;
+    if (!is_abreast || std::abs(foot.l) <= std::abs(beside.l)) continue;
+    beside.l = foot.l;
+    beside.turn = std::abs(angleBetween(lane.headingAt(foot.s), other.headingAt(s)));
+  }
+  return beside;
+}
+
+class NeighbourCheck {
+ public:
+  explicit NeighbourCheck(MapContent* map) : map_(*map) {}
+
+  void run() {
+    for (std::size_t i = 0; i < map_.lanes.size(); ++i) mend(static_cast<LaneIndex>(i));
+    swapped_.report(&map_.warnings);
+    oncoming_.report(&map_.warnings);
+    far_.report(&map_.warnings);
+  }
+
+ private:
+  void mend(LaneIndex index) {
+    Lane& lane = map_.lanes[index];
+    std::vector<LaneIndex> left, right;
+    for (const bool is_left : {true, false}) {
+      for (const LaneIndex other : is_left ? lane.left_forward : lane.right_forward) {
+        const auto lies_left = sideOf(lane, map_.lanes[other], is_left);
+        if (lies_left) addOnce(other, *lies_left ? &left : &right);
+      }
+    }
+    lane.left_forward = std::move(left);
+    lane.right_forward = std::move(right);
+  }
+
+  /// True: to the left. nullopt: it is no neighbour in the same direction.
+  std::optional<bool> sideOf(const Lane& lane, const Lane& other, bool stated_left) {
+    Beside beside = besideOf(lane.center, other.center);
+    if (beside.l == 0.0) {
+      beside = besideOf(other.center, lane.center);
+      beside.l = -beside.l;
+    }
+    if (beside.distance > kMaxDistance) {
+      far_.add(beside.distance, other.id, " of ", lane.id, ", ", metres(beside.distance), " off");
+      return std::nullopt;
+    }
+    if (beside.turn > M_PI / 2.0) {
+      oncoming_.add(other.id, " of ", lane.id);
+      return std::nullopt;
+    }
+    const bool lies_left = std::abs(beside.l) < kClearlyBeside ? stated_left : beside.l > 0.0;
+    if (lies_left != stated_left) {
+      swapped_.add(other.id, ", stated as the ", stated_left ? "left" : "right", " neighbour of ", lane.id);
+    }
+    return lies_left;
+  }
+
+  static void addOnce(LaneIndex lane, std::vector<LaneIndex>* lanes) {
+    if (std::find(lanes->begin(), lanes->end(), lane) == lanes->end()) lanes->push_back(lane);
+  }
+
+  MapContent& map_;
+  WarningCounter swapped_{"neighbours on the other side than the map states; they count where they lie"};
+  WarningCounter oncoming_{"forward neighbours that run the other way; no lane changes to them"};
+  WorstCounter far_{"forward neighbours too far off for a lane change"};
+};
+
+}  // namespace
+
+void mendNeighbours(MapContent* map) { NeighbourCheck(map).run(); }
+
+}  // namespace external_command
