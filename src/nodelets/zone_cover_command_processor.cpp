@@ -259,10 +259,10 @@ void ZoneCoverCommandProcessor::track() {
 }
 
 void ZoneCoverCommandProcessor::followVehicle() {
-  const std::size_t before = sweep_->zone.finished();
+  const std::string before = sweep_->zone.words();
   const bool is_news = sweep_->zone.follow(context().vehiclePose().get());
-  if (is_news) keeper_->note(sweep_->path, sweep_->zone.progress(), sweep_->zone.finished() > before);
   std::string words = sweep_->zone.words();
+  if (is_news) keeper_->note(sweep_->path, sweep_->zone.progress(), words != before);
   const std::string failure = keeper_->failureOf(sweep_->path);
   if (!failure.empty()) words += "; the progress is not kept: " + failure;
   context().registry().update(

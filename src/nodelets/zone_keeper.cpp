@@ -49,7 +49,8 @@ struct ZoneKeeper::Kept {
   bool is_busy = false;    ///< it is being written
   bool is_urgent = false;  ///< it is to be written before it is due
   bool is_over = false;
-  Clock::time_point due = Clock::now();  ///< the next time that it may be written
+  Clock::time_point due = Clock::now();         ///< the next time that it is written
+  Clock::time_point urgent_due = Clock::now();  ///< the same where it is urgent
 };
 
 struct ZoneKeeper::Draft::State {
@@ -147,7 +148,7 @@ void ZoneKeeper::finish(const std::string& path) {
 void ZoneKeeper::tick() {
   const std::lock_guard<std::mutex> lock(mutex_);
   for (const auto& [path, kept] : kept_) {
-    const bool is_due = Clock::now() >= kept->due || (kept->is_urgent && kept->failure.empty());
+    const bool is_due = Clock::now() >= (kept->is_urgent ? kept->urgent_due : kept->due);
     if (kept->is_dirty && !kept->is_busy && is_due) post(kept);
   }
 }
@@ -218,7 +219,9 @@ void ZoneKeeper::settle(const std::shared_ptr<Kept>& kept, const std::string& fa
   kept->failure = failure;
   kept->is_dirty = kept->is_dirty || failed;
   kept->is_busy = false;
-  kept->due = Clock::now() + std::max<Clock::duration>(failed ? kRetryPeriod : kPeriod, kShareOfDisk * took);
+  kept->urgent_due =
+      Clock::now() + std::max<Clock::duration>(failed ? kRetryPeriod : std::chrono::seconds(0), kShareOfDisk * took);
+  kept->due = std::max(Clock::now() + kPeriod, kept->urgent_due);
   if (kept->is_over && !failed) {  // not without its last words
     const auto known = kept_.find(kept->file.path());
     const bool is_known = known != kept_.end() && known->second == kept;

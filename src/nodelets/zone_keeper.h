@@ -15,8 +15,8 @@
 
 namespace external_command {
 
-/// Writes zones' files on a thread of its own, so that a slow disk delays nobody: once a second each, less often where
-/// a write takes long, and whenever a line is done. What cannot be written is kept in memory and tried again.
+/// Writes zones' files on a thread of its own, so that a slow disk delays nobody: once a second each and when that is
+/// asked for, less often where a write takes long. What cannot be written is kept in memory and tried again.
 /// Thread-safe.
 class ZoneKeeper {
  public:
@@ -50,7 +50,7 @@ class ZoneKeeper {
   void adopt(const Draft& draft);
 
   /// What is swept now of the zone of the file `path`, which was adopted. Does not wait.
-  /// @param at_once  rather than when it is time.
+  /// @param at_once  it is written before its second is over.
   void note(const std::string& path, const CoverageProgress& progress, bool at_once);
 
   /// The zone is swept no more: the last that was noted is written at once.

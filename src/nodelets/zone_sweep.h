@@ -43,9 +43,6 @@ class ZoneSweep {
 
   const CoverageProgress& progress() const { return task_.progress; }
 
-  /// Lines of the path that are behind the vehicle.
-  std::size_t finished() const { return tracker_.current(); }
-
   /// "swath 7 of 30, 21 % covered", and which lap it is where it is one; numbers are those of the lines, from 1.
   std::string words() const;
 

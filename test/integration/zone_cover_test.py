@@ -16,7 +16,7 @@ from nav_msgs.msg import OccupancyGrid
 import support
 from external_command.msg import CommandStatus, FreeSpaceCommand, Pose
 from external_command.srv import FreeSpace
-from zone_yard import Sweeper, box, polygon, swath_of
+from zone_yard import Sweeper, box, percent_of, polygon, swath_of
 
 NODE = "/courtyard/external_command"
 PROGRESS_FOLDER = "/tmp/external_command_zone_cover_test"
@@ -83,9 +83,9 @@ class ZoneCoverTest(unittest.TestCase):
         SWEEPER.finish(command_id)
 
     def interrupt_half_way(self, corners):
-        """Begins to sweep and stops the vehicle; returns how many swaths there are, and were done."""
+        """Begins to sweep and stops the vehicle; returns how many swaths there are, and were done, and the per cent."""
         last = SWEEPER.sweep_until(corners, lambda message: swath_of(message) >= 4)[-1]
-        return int(re.match(r"swath \d+ of (\d+)", last).group(1)), swath_of(last) - 1
+        return int(re.match(r"swath \d+ of (\d+)", last).group(1)), swath_of(last) - 1, percent_of(last)
 
     def kill_the_gateway(self):
         killed = support.pid_of(NODE)
@@ -101,7 +101,7 @@ class ZoneCoverTest(unittest.TestCase):
         self.assert_refused(cover(corners, resume=True), "resume", "is swept")
 
     def test_goes_on_after_a_restart_where_it_was_killed(self):
-        total, done = self.interrupt_half_way(YARD)
+        total, done, percent = self.interrupt_half_way(YARD)
         leftover = os.path.join(PROGRESS_FOLDER, "courtyard-polygon-0.zone.999999999-1.new")
         with open(leftover, "w", encoding="ascii") as file:
             file.write("of a process that was killed while it wrote")
@@ -115,11 +115,12 @@ class ZoneCoverTest(unittest.TestCase):
         first = statuses.wait_for(lambda m: m.command_id == command_id and swath_of(m.message), "progress")
         self.assertIn("of %d," % total, first.message)
         self.assertGreaterEqual(swath_of(first.message), done)
+        self.assertGreaterEqual(percent_of(first.message), percent - 1)
         self.finish(command_id)
         self.assert_refused(cover(YARD, resume=True), "all %d swaths" % total)
 
     def test_skips_a_swath_and_tries_it_again_at_the_end(self):
-        total, done = self.interrupt_half_way(SMALL_YARD)
+        total, done, _ = self.interrupt_half_way(SMALL_YARD)
         blocked = done + 1
         whole, without = (cover(SMALL_YARD, resume=True, dry_run=True, skip_swath=skipped)
                           for skipped in ([], [blocked]))
