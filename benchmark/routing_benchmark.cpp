@@ -2,7 +2,8 @@
 //
 // routing_benchmark [--city CROSSINGS_PER_SIDE]... FILE...
 // Measures, for each map file and made-up city, how long routes between random places of its lanes take, and their
-// reference paths. Prints one JSON array.
+// reference paths; and routes between poses beside the lanes, for which several lanes are candidates. Prints one JSON
+// array.
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -10,6 +11,7 @@
 #include <sstream>
 
 #include "external_command/map/map_reader.h"
+#include "external_command/routing/lane_way_tool.h"
 #include "external_command/routing/reference_path.h"
 #include "grid_city.h"
 
@@ -17,6 +19,7 @@ namespace external_command {
 namespace {
 
 constexpr int kQueries = 1000;
+constexpr double kBeside = 1.75;  // [m]
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -40,12 +43,17 @@ class Measurement {
     const Router router(map_, RouterParams());
     const double build = now() - begin;
     for (int i = 0; i < kQueries; ++i) query(router);
+    for (int i = 0; i < kQueries; ++i) queryBesideLanes(router);
     std::ostringstream out;
     out << "{\"map\": \"" << name << "\", \"lanes\": " << lanes_.size() << ", \"router_build_s\": " << build
         << ", \"queries\": " << kQueries << ", \"without_route\": " << kQueries - route_times_.size()
         << ", \"route_us_median\": " << 1e6 * quantile(&route_times_, 0.5)
         << ", \"route_us_p99\": " << 1e6 * quantile(&route_times_, 0.99)
         << ", \"route_m_median\": " << quantile(&distances_, 0.5)
+        << ", \"changes_per_km\": " << 1000.0 * changes_ / std::max(metres_, 1.0)
+        << ", \"candidates_mean\": " << candidates_ / (2.0 * kQueries)
+        << ", \"beside_lanes_us_median\": " << 1e6 * quantile(&beside_times_, 0.5)
+        << ", \"beside_lanes_us_p99\": " << 1e6 * quantile(&beside_times_, 0.99)
         << ", \"path_us_per_km_median\": " << 1e6 * quantile(&path_times_per_km_, 0.5)
         << ", \"no_route_us_median\": " << 1e6 * quantile(&failure_times_, 0.5) << "}";
     return out.str();
@@ -67,15 +75,40 @@ class Measurement {
       const double end = now();
       route_times_.push_back(found - begin);
       distances_.push_back(route.distance);
+      metres_ += route.distance;
+      for (const RouteStep& step : route.steps) changes_ += step.change_after != LaneChange::kNone;
       if (path.back().s > 100.0) path_times_per_km_.push_back((end - found) / path.back().s * 1000.0);
     } catch (const NoRoute&) {
       failure_times_.push_back(now() - begin);
     }
   }
 
+  /// As far to the side of a lane as the one beside it would be: which of the two is meant?
+  Point2d anyPlaceBesideALane() {
+    const LanePoint place = anyPlace();
+    const Pose2d pose = map_->lane(place.lane).center.poseAt(place.s);
+    return pose.position() + kBeside * unitVector(pose.heading + M_PI / 2.0);
+  }
+
+  void queryBesideLanes(const Router& router) {
+    const LaneWayTool tool(*map_, {});
+    const Point2d from = anyPlaceBesideALane(), to = anyPlaceBesideALane();
+    const double begin = now();
+    const RouteQuery query{tool.fromPose(from, {}, "start"), {}, tool.fromPose(to, {}, "goal"), {}};
+    candidates_ += static_cast<double>(query.starts.size() + query.goals.size());
+    try {
+      router.findRoute(query, CancelToken());
+    } catch (const NoRoute&) {
+      return;
+    }
+    beside_times_.push_back(now() - begin);
+  }
+
   std::shared_ptr<const HdMap> map_;
   std::vector<LaneIndex> lanes_;
   std::mt19937 random_{1};
+  double metres_ = 0.0, changes_ = 0.0, candidates_ = 0.0;
+  std::vector<double> beside_times_;
   std::vector<double> route_times_, failure_times_, distances_, path_times_per_km_;
 };
 

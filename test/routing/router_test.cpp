@@ -212,5 +212,24 @@ TEST_F(Ring, RefusesParametersOutOfRange) {
   EXPECT_THAT_REFUSED(Router(nullptr, RouterParams()), NotReady, "no map");
 }
 
+///         +-- up ----+
+///   in ---+          +--- out      two ways of the same length
+///         +-- down --+
+TEST(EqualRoutes, AreDecidedTheSameEachTime) {
+  MapBuilder builder;
+  builder.lane("in", {-50, 0}, {0, 0}).lane("out", {100, 0}, {150, 0});
+  builder.lane("up", std::vector<Point2d>{{0, 0}, {50, 30}, {100, 0}});
+  builder.lane("down", std::vector<Point2d>{{0, 0}, {50, -30}, {100, 0}});
+  builder.follow({"in", "up", "out"}).follow({"in", "down", "out"});
+  const auto map = builder.build();
+  const Router router(map, {});
+  for (int i = 0; i < 20; ++i) {
+    RouteQuery query{{{laneIndex(*map, "in"), 1.0}}, {}, {{laneIndex(*map, "out"), 1.0 + i}}, {}};
+    EXPECT_EQ(laneIds(router.findRoute(query, CancelToken()), *map), "in up out") << "the first that the map names";
+    query.goals.push_back(query.goals.front());
+    EXPECT_EQ(router.findRoute(query, CancelToken()).goal, Router(map, {}).findRoute(query, CancelToken()).goal);
+  }
+}
+
 }  // namespace
 }  // namespace external_command
