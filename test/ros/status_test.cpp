@@ -101,5 +101,23 @@ TEST(Checks, DoNotLookAtAHeadingThatIsNotGiven) {
   EXPECT_THROW(requireFinite(pose, "end_pose"), InvalidRequest);
 }
 
+TEST(ReportAge, IsComparedWithWhenTheCommandWasSentButForTheSkewOfClocks) {
+  ros::Time::init();
+  const ros::Time sent = ros::Time::now() - ros::Duration(1.0);
+  EXPECT_FALSE(isOlder(sent + ros::Duration(0.1), sent, 0.5));
+  EXPECT_FALSE(isOlder(sent - ros::Duration(0.4), sent, 0.5));
+  EXPECT_TRUE(isOlder(sent - ros::Duration(0.6), sent, 0.5));
+  EXPECT_FALSE(isOlder(ros::Time(), sent, 0.5)) << "no stamp";
+}
+
+TEST(ReportAge, DoesNotCountWhereSimulatedTimeWasSetBack) {
+  ros::Time::setNow(ros::Time(100.0));
+  const ros::Time sent(5000.0);
+  EXPECT_FALSE(isOlder(ros::Time(99.0), sent, 0.5));
+  ros::Time::setNow(ros::Time(5001.0));
+  EXPECT_TRUE(isOlder(ros::Time(99.0), sent, 0.5));
+  ros::Time::init();  // back to the time of the system
+}
+
 }  // namespace
 }  // namespace external_command
