@@ -66,7 +66,7 @@ void ExternalCommandProcessComponent::start() {
 void ExternalCommandProcessComponent::open() {
   std::string service = "external_command/command_status";
   parameters().readName("command_status_service_name", &service);
-  status_lane_ = std::make_unique<DedicatedLane>();
+  status_lane_ = std::make_unique<DedicatedLane>(LaneOptions{"the lane of statuses"});
   ros::NodeHandle nh(getNodeHandle());
   nh.setCallbackQueue(status_lane_->queue());
   status_server_ = nh.advertiseService(service, &ExternalCommandProcessComponent::serveStatus, this);

@@ -56,8 +56,8 @@ class OldRoutingAdapter : public CommandProcessor {
   std::optional<RoutingRequestConverter> converter_;
   ros::Publisher response_publisher_;
   std::mutex mutex_;
-  std::deque<Waiting> waiting_;  ///< guarded by mutex_
-  DedicatedLane take_lane_;      // before its subscribers
+  std::deque<Waiting> waiting_;                                             ///< guarded by mutex_
+  DedicatedLane take_lane_{LaneOptions{"the adapter's lane of requests"}};  // before its subscribers
   ros::Subscriber request_subscriber_, goal_subscriber_;
   DedicatedLane lane_{LaneOptions{"the adapter's lane of calls"}};  // last: joins before the rest goes
 };

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "routing_request_converter.h"
 
-#include <ros/console.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "external_command/core/text.h"
 #include "external_command/ros/checks.h"
 #include "external_command/ros/conversions.h"
+#include "external_command/ros/log_lane.h"
 
 namespace external_command {
 
@@ -123,8 +122,8 @@ Pose RoutingRequestConverter::onLane(const LaneWaypoint& way_point, const Pose2d
     pose.heading = normalizeAngle(pose.heading + turn);
     if (tool.fromPose(pose.position(), pose.heading, name).front().lane == point.lane) return toMsg(pose);
   }
-  ROS_WARN_STREAM(name << ": another lane of the map lies on top of " << lane.id << " at " << at(exact)
-                       << "; the route may take either");
+  logLater(LogLevel::kWarn, text(name, ": another lane of the map lies on top of ", lane.id, " at ", at(exact),
+                                 "; the route may take either"));
   exact.heading = normalizeAngle(exact.heading + turn);
   return toMsg(exact);
 }

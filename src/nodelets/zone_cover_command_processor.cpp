@@ -251,7 +251,7 @@ void ZoneCoverCommandProcessor::track() {
     }
     if (status && status->status == CommandStatus::RUNNING) followVehicle();
   } catch (const Error& error) {
-    ROS_WARN_STREAM_THROTTLE(10.0, getName() << ": the progress is not followed: " << error.what());
+    logLater(LogLevel::kWarn, not_followed_, text(getName(), ": the progress is not followed: ", error.what()));
   }
   if (status && !hasEnded(*status)) return;
   keeper_->finish(sweep_->path);

@@ -12,6 +12,7 @@
 #include <exception>
 
 #include "external_command/core/text.h"
+#include "external_command/ros/log_lane.h"
 #include "external_command/ros/name_twin.h"
 #include "registrations.h"
 
@@ -109,9 +110,10 @@ void MasterWatch::run() {
     try {
       look();
     } catch (const std::exception& error) {
-      ROS_ERROR_STREAM("this node could not be made known to the ROS master again, it is tried on: " << error.what());
+      logLater(LogLevel::kError,
+               text("this node could not be made known to the ROS master again, it is tried on: ", error.what()));
     } catch (const XmlRpc::XmlRpcException& error) {
-      ROS_ERROR_STREAM("the ROS master's answer cannot be understood: " << error.getMessage());
+      logLater(LogLevel::kError, text("the ROS master's answer cannot be understood: ", error.getMessage()));
     }
     lock.lock();
   }
@@ -141,10 +143,10 @@ void MasterWatch::noteAnswer(bool is_there) {
   if (is_there == !is_silent_) return;
   is_silent_ = !is_there;
   if (is_silent_) {
-    ROS_WARN_STREAM("the ROS master at " << ros::master::getURI()
-                                         << " does not answer; this node goes on, but nobody new finds it");
+    logLater(LogLevel::kWarn, text("the ROS master at ", ros::master::getURI(),
+                                   " does not answer; this node goes on, but nobody new finds it"));
   } else {
-    ROS_INFO_STREAM("the ROS master at " << ros::master::getURI() << " answers again");
+    logLater(LogLevel::kInfo, text("the ROS master at ", ros::master::getURI(), " answers again"));
   }
 }
 
@@ -168,8 +170,10 @@ bool MasterWatch::endsForTwin() {
 }
 
 void MasterWatch::putBack(const Registrations& lost, bool is_new) {
-  if (is_new)
-    ROS_WARN_STREAM("the ROS master at " << ros::master::getURI() << " is a new one and does not know this node");
+  if (is_new) {
+    logLater(LogLevel::kWarn,
+             text("the ROS master at ", ros::master::getURI(), " is a new one and does not know this node"));
+  }
   const auto begin = std::chrono::steady_clock::now();
   const XmlRpcPeer master = rosMaster();
   std::size_t parameters = 0;
@@ -181,10 +185,10 @@ void MasterWatch::putBack(const Registrations& lost, bool is_new) {
   }
   const bool is_complete = registerAgain(lost, master);
   const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - begin;
-  ROS_WARN_STREAM("put back at the ROS master: "
-                  << lost.services.size() << " services, " << lost.publications.size() << " publications, "
-                  << lost.subscriptions.size() << " subscriptions, " << parameters << " parameters, in "
-                  << duration.count() << " s" << (is_complete ? "" : "; not all was taken, the rest is tried again"));
+  logLater(LogLevel::kWarn,
+           text("put back at the ROS master: ", lost.services.size(), " services, ", lost.publications.size(),
+                " publications, ", lost.subscriptions.size(), " subscriptions, ", parameters, " parameters, in ",
+                duration.count(), " s", is_complete ? "" : "; not all was taken, the rest is tried again"));
 }
 
 }  // namespace external_command

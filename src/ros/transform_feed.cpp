@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "external_command/ros/transform_feed.h"
 
-#include <ros/console.h>
-
 #include <exception>
 
 #include "external_command/core/text.h"
+#include "external_command/ros/log_lane.h"
 
 namespace external_command {
 
@@ -71,7 +70,7 @@ void TransformFeed::noteRefusal(const std::string& reason) {
   }
   if (count > 1 && now - last_told_ < kTellPeriod) return;
   last_told_ = now;
-  ROS_WARN_STREAM(reason << " (" << count << " refused so far)");
+  logLater(LogLevel::kWarn, text(reason, " (", count, " refused so far)"));
 }
 
 std::string TransformFeed::recentRefusal() const {

@@ -35,11 +35,11 @@ class TransformFeed {
 
   TransformStore store_;
   mutable std::mutex mutex_;
-  std::string last_refusal_;      ///< guarded by mutex_
-  double last_refused_at_ = 0.0;  ///< steady [s], guarded by mutex_
-  double last_told_ = 0.0;        ///< steady [s], of the lane's thread
-  std::uint64_t refused_ = 0;     ///< guarded by mutex_
-  DedicatedLane lane_;            // before what is bound to its queue; stopped in the destructor
+  std::string last_refusal_;                            ///< guarded by mutex_
+  double last_refused_at_ = 0.0;                        ///< steady [s], guarded by mutex_
+  double last_told_ = 0.0;                              ///< steady [s], of the lane's thread
+  std::uint64_t refused_ = 0;                           ///< guarded by mutex_
+  DedicatedLane lane_{LaneOptions{"the lane of /tf"}};  // before what is bound to its queue; stopped in the destructor
   ros::NodeHandle nh_;
   ros::Subscriber moving_, fixed_;
   ros::SteadyTimer tidying_;
