@@ -2,6 +2,7 @@
 #include "external_command/ros/parameter_check.h"
 
 #include <ros/console.h>
+#include <ros/names.h>
 #include <ros/param.h>
 
 #include <algorithm>
@@ -62,6 +63,18 @@ void collect(const std::string& key, XmlRpcValue value, const std::set<std::stri
   }
 }
 
+/// The keys below `ns` that are known so far.
+std::set<std::string> knownBelow(const std::string& ns) {
+  const std::string start = ns == "/" ? ns : ns + "/";
+  std::set<std::string> keys;
+  const std::lock_guard<std::mutex> lock(knownNames().mutex);
+  const auto& names = knownNames().names;
+  for (auto name = names.lower_bound(start); name != names.end() && startsWith(*name, start); ++name) {
+    keys.insert(name->substr(start.size()));
+  }
+  return keys;
+}
+
 }  // namespace
 
 std::vector<StrayKey> strayKeys(const XmlRpcValue& tree, const std::set<std::string>& known) {
@@ -76,19 +89,17 @@ void noteKnownParameter(const std::string& name) {
 }
 
 void warnOfStrayParameters(const std::string& ns) {
-  std::set<std::string> known;
-  {
-    const std::lock_guard<std::mutex> lock(knownNames().mutex);
-    const auto& names = knownNames().names;
-    for (auto name = names.lower_bound(ns + "/"); name != names.end() && startsWith(*name, ns + "/"); ++name) {
-      known.insert(name->substr(ns.size() + 1));
-    }
-  }
   XmlRpcValue tree;
   if (!ros::param::get(ns, tree)) return;
-  for (const StrayKey& stray : strayKeys(tree, known)) {
-    const std::string meant = stray.nearest.empty() ? "" : text("; did you mean ", ns, "/", stray.nearest, "?");
-    ROS_WARN_STREAM("parameter " << ns << "/" << stray.key << " is set, but nothing reads it" << meant);
+  const std::string vehicle = ros::names::parentNamespace(ns);
+  for (const StrayKey& stray : strayKeys(tree, knownBelow(ns))) {
+    std::string meant = stray.nearest.empty() ? "" : ns + "/" + stray.nearest;
+    if (meant.empty()) {
+      const std::string elsewhere = nearestKey(lastPart(stray.key), knownBelow(vehicle));
+      if (!elsewhere.empty()) meant = ros::names::append(vehicle, elsewhere);
+    }
+    ROS_WARN_STREAM("parameter " << ns << "/" << stray.key << " is set, but nothing reads it"
+                                 << (meant.empty() ? "" : "; did you mean " + meant + "?"));
   }
 }
 

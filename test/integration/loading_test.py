@@ -179,7 +179,7 @@ class LoadingTest(unittest.TestCase):
 
     def test_warns_of_a_key_that_nothing_reads(self):
         others = {
-            "lane_follow_command_processor": {"free_space": {"margni": 0.2}, "obstacle_grid": "grid"},
+            "lane_follow_command_processor": {"free_space": {"margni": 0.2}, "colour": "red", "snap_distnace": 1.0},
             "action_command_processor": {"scenarios": {"stopp": ["EMERGENCY_STOP"]}},
         }
         own = {"routing": {"snap_distnace": 1.0}, "vehicle": {"max_sped": 3.0}, "map_fiel": "", "default_speed_limt": 5.0}
@@ -192,9 +192,10 @@ class LoadingTest(unittest.TestCase):
                   ("external_command/vehicle/max_sped", "external_command/vehicle/max_speed"),
                   ("external_command/map_fiel", "external_command/map_file"),
                   ("external_command/default_speed_limt", "external_command/routing/default_speed_limit"),
+                  ("lane_follow_command_processor/snap_distnace", "external_command/routing/snap_distance"),
                   ("lane_follow_command_processor/free_space/margni", "lane_follow_command_processor/free_space/margin"),
                   ("action_command_processor/scenarios/stopp", "action_command_processor/scenarios/stop"))),
-            "parameter %slane_follow_command_processor/obstacle_grid is set" % prefix)
+            "parameter %slane_follow_command_processor/colour is set, but nothing reads it" % prefix)
 
     def test_says_when_it_is_ready_and_what_it_serves_and_warns_of_nothing_in_its_own_configuration(self):
         folder = os.path.join(rospkg.RosPack().get_path("external_command"), "config")
