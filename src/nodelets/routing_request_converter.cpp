@@ -32,6 +32,13 @@ Pose toMsg(const Pose2d& pose) {
   return msg;
 }
 
+/// On a lane of both directions the one that `heading` [rad] fits better.
+LanePoint drivenAs(const HdMap& map, const LanePoint& point, double heading) {
+  const Lane& lane = map.lane(point.lane);
+  const bool runs_back = std::abs(angleBetween(lane.center.headingAt(point.s), heading)) > M_PI / 2.0;
+  return lane.reverse && runs_back ? LanePoint{*lane.reverse, lane.length() - point.s} : point;
+}
+
 template <class Command>
 void carryOver(const RoutingRequest& request, const std::string& map_frame, Command* command) {
   command->header.stamp = request.header.stamp;
@@ -105,7 +112,8 @@ Pose RoutingRequestConverter::onLane(const LaneWaypoint& way_point, const Pose2d
                                      const std::string& name) const {
   const HdMap& map = context_->requireRouter().map();
   const LaneWayParams& params = context_->params().lane_way;
-  const LanePoint point = lanePoint(way_point, frame, name);
+  LanePoint point = lanePoint(way_point, frame, name);
+  if (way_point.has_heading) point = drivenAs(map, point, way_point.heading + frame.heading);
   const Lane& lane = map.lane(point.lane);
   Pose2d exact = lane.center.poseAt(point.s);
   const double turn = way_point.has_heading ? angleBetween(exact.heading, way_point.heading + frame.heading) : 0.0;

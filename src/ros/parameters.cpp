@@ -219,6 +219,7 @@ LaneWayParams readLaneWayParams(const ParameterReader& reader) {
   reader.read("snap_heading", &params.snap_heading);
   reader.read("max_goal_distance", &params.max_goal_distance);
   reader.read("lane_keeping_error", &params.lane_keeping_error);
+  reader.read("heading_error", &params.heading_error);
   reader.read("height_error", &params.height_error);
   reader.read("off_lane_price", &params.off_lane_price);
   reader.read("off_heading_price", &params.off_heading_price);

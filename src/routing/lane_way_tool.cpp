@@ -56,6 +56,7 @@ void LaneWayParams::validate() const {
   requireWithin("snap_heading", snap_heading, 0.01, M_PI);
   requireWithin("max_goal_distance", max_goal_distance, 0.01, 1e6);
   requireWithin("lane_keeping_error", lane_keeping_error, 0.0, 100.0);
+  requireWithin("heading_error", heading_error, 0.0, M_PI);
   requireWithin("height_error", height_error, 0.0, 1000.0);
   requireWithin("off_lane_price", off_lane_price, 0.0, 1e6);
   requireWithin("off_heading_price", off_heading_price, 0.0, 1e6);
@@ -78,12 +79,20 @@ std::vector<LanePoint> LaneWayTool::candidates(const Point2d& point, LaneQuery q
   std::vector<LaneMatch> matches = map_.lanesWithin(point, query);
   if (height) keepDeck(map_, *height, params_.height_error, &matches);
   dropEnds(map_, &matches);
+  const auto turn = [&](const LaneMatch& match) {
+    return query.heading ? std::abs(angleBetween(*query.heading, match.heading)) : 0.0;
+  };
+  const auto isFurther = [&](const LaneMatch& match) {
+    return match.frenet.distance > matches.front().frenet.distance + params_.lane_keeping_error;
+  };
+  const auto last = std::find_if(matches.begin(), matches.end(), isFurther);
+  double least = std::numeric_limits<double>::infinity();
+  for (auto match = matches.begin(); match != last; ++match) least = std::min(least, turn(*match));
   std::vector<LanePoint> points;
-  for (const LaneMatch& match : matches) {
-    if (match.frenet.distance > matches.front().frenet.distance + params_.lane_keeping_error) break;
-    const double turn = query.heading ? std::abs(angleBetween(*query.heading, match.heading)) : 0.0;
-    const double price = match.frenet.distance * params_.off_lane_price + turn * params_.off_heading_price;
-    points.push_back({match.lane, match.frenet.s, price});
+  for (auto match = matches.begin(); match != last; ++match) {
+    if (turn(*match) > least + params_.heading_error) continue;  // a lane that crosses there
+    const double price = match->frenet.distance * params_.off_lane_price + turn(*match) * params_.off_heading_price;
+    points.push_back({match->lane, match->frenet.s, price});
   }
   return points;
 }

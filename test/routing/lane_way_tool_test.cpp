@@ -131,6 +131,13 @@ TEST_F(TwoWayRoad, RefusesAVehicleFarFromTheLanes) {
   EXPECT_THAT_REFUSED(tool().fromVehicle({30, -21, 0}), OffMap, "the limit is 20.00 m (~park_and_go_radius)");
 }
 
+TEST_F(TwoWayRoad, DoesNotStartAVehicleOnALaneThatCrossesItsOwn) {
+  builder.lane("crossing", {20, kWidth - 10.0}, {40, kWidth + 10.0});  // at 45 degrees, through (30, kWidth)
+  EXPECT_EQ(ids(tool().fromVehicle({30, kWidth + 0.1, 0.1})), "north");
+  EXPECT_EQ(ids(tool().fromVehicle({30, kWidth + 0.1, 0.7})), "crossing");
+  EXPECT_EQ(tool().fromVehicle({30, kWidth, 0.39}).size(), 2u) << "in between";
+}
+
 ///   a second deck 6 m above: its lanes lie 0.2 m to the left of those below
 TEST_F(TwoWayRoad, StartsAVehicleOnTheDeckOfItsHeight) {
   builder.lane("upper", {0, kWidth + 0.2}, {100, kWidth + 0.2});

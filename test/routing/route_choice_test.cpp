@@ -106,6 +106,12 @@ TEST_F(Fork, EndsWhereALaneBeginsOnThatLane) {
   EXPECT_EQ(trip.ids(trip.drive({-20, 0, 0}, {19.8, 0, 0.0})), "in straight");
 }
 
+TEST_F(Fork, IsLeftByTheBranchThatTheVehicleHasTurnedInto) {
+  //   0.8 m beside the lane straight on, but turned by 0.3 rad
+  EXPECT_EQ(trip.ids(trip.drive({5.9, -0.89, -0.3}, {20, -60})), "right out_s");
+  EXPECT_THROW(trip.drive({7.65, -1.0, -0.39}, {60, 0}), NoRoute);
+}
+
 TEST_F(Fork, TakesTheBranchThatTheWayPointIsClearlyOn) {
   EXPECT_THROW(trip.drive({-20, 0, 0}, {{18.0, -11.5}}, {60, 0}), NoRoute);
 }

@@ -14,6 +14,7 @@ struct LaneWayParams {
   double snap_heading = 1.0;             ///< between pose and lane, at most [rad]
   double max_goal_distance = 10.0;       ///< from a pose without heading to its lane, at most [m]
   double lane_keeping_error = 1.0;       ///< lanes that are further off by no more than this could be meant too [m]
+  double heading_error = 0.3;            ///< the same by heading, where the pose has one [rad]
   double height_error = 2.0;             ///< the same by height, where pose and map have one [m]
   double off_lane_price = 100.0;         ///< that a candidate costs for each metre it is off [m/m]
   double off_heading_price = 100.0;      ///< that a candidate costs for each radian its heading is off [m/rad]
@@ -33,8 +34,8 @@ class LaneWayTool {
   LaneWayTool(const HdMap& map, const LaneWayParams& params);
 
   /// Candidates for a way point or goal: the nearest lane, within `snap_distance` and `snap_heading` where a heading is
-  /// given, within `max_goal_distance` where not, and those that are off by at most `lane_keeping_error` more. Each
-  /// has the price of being off; the nearest comes first.
+  /// given, within `max_goal_distance` where not, and those that are off by at most `lane_keeping_error` more; of these
+  /// the ones whose heading fits best, to `heading_error`. Each has the price of being off; the nearest comes first.
   /// @param name  of the field, "end_pose": error texts begin with it.
   /// @throws OffMap  there is none; the text names the nearest lane, its distance and heading difference, and the
   /// limit.
