@@ -19,6 +19,11 @@ bool isCusp(const Path& path, std::size_t i) {
   return i > 0 && i + 1 < path.size() && path[i].direction != path[i + 1].direction;
 }
 
+/// What can be had `distance` [m] from `other` by a change of speed of `acceleration` [m/s^2].
+void lowerToReach(const ReferencePoint& other, double distance, double acceleration, ReferencePoint* point) {
+  point->speed = std::min(point->speed, std::sqrt(other.speed * other.speed + 2.0 * acceleration * distance));
+}
+
 /// Length of the circular arc over the chord from `from` to `to`.
 double arcLength(const ReferencePoint& from, const ReferencePoint& to) {
   const double half = 0.5 * std::abs(angleBetween(from.heading, to.heading));
@@ -31,8 +36,7 @@ double arcLength(const ReferencePoint& from, const ReferencePoint& to) {
 Path join(const Path& first, const Path& second) {
   if (first.empty()) return second;
   Path joined = first;
-  const bool changes_gear = first.size() > 1 && second.size() > 1 && second[1].direction != first.back().direction;
-  if (changes_gear) joined.back().speed = 0.0;
+  if (first.size() == 1 && !second.empty()) joined.front().direction = second.front().direction;
   for (std::size_t i = 0; i < second.size(); ++i) {
     if (i == 0 && stepLength(first.back(), second[0]) < 1e-3) continue;
     joined.push_back(second[i]);
@@ -78,8 +82,10 @@ void limitSpeeds(const VehicleParams& vehicle, Path* path) {
   }
   if (!points.empty()) points.back().speed = 0.0;
   for (std::size_t i = points.size(); i-- > 1;) {
-    const double braking = 2.0 * vehicle.max_deceleration * (points[i].s - points[i - 1].s);
-    points[i - 1].speed = std::min(points[i - 1].speed, std::sqrt(points[i].speed * points[i].speed + braking));
+    lowerToReach(points[i], points[i].s - points[i - 1].s, vehicle.max_deceleration, &points[i - 1]);
+  }
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    lowerToReach(points[i - 1], points[i].s - points[i - 1].s, vehicle.max_acceleration, &points[i]);
   }
 }
 

@@ -17,8 +17,7 @@ constexpr double kSameHeading = 1e-3;          // [rad]
 constexpr double kMaxBulge = 0.25;             // of the curve beside the straight line between two points [m]
 constexpr double kMaxSmoothTurn = 0.6;         // of the curve against that line, at either end [rad]
 constexpr double kMaxHeadingError = M_PI / 4;  // of a given heading against the line, there or back [rad]
-constexpr double kMaxPathPoints = 200000.0;
-constexpr double kCurvatureTolerance = 1.02;  // of the sampled curvature
+constexpr double kCurvatureTolerance = 1.02;   // of the sampled curvature
 
 /// Directions of motion [rad] in which the path arrives at a point and leaves it; they differ at a corner.
 struct Tangents {
@@ -180,19 +179,17 @@ class PathSampler {
   std::vector<double> corners_;         ///< per path point: its turn on the spot [rad]
 };
 
-void requirePoints(const DistinctLine& given, std::size_t count_given, double spacing) {
+void requirePoints(const DistinctLine& given, std::size_t count_given, double spacing, const PathBounds& bounds) {
   const std::vector<Point2d>& points = given.line.points;
   const auto name = [&](std::size_t i) { return text("way_point[", given.number[i], "]"); };
-  double count = 1.0;
+  double length = 0.0, count = 1.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite()) throw InvalidRequest(name(i) + " is not finite");
     if (i == 0) continue;
+    length += (points[i] - points[i - 1]).norm();
     count += std::ceil((points[i] - points[i - 1]).norm() / spacing);
-    if (!(count <= kMaxPathPoints)) {
-      throw InvalidRequest(text(name(i), " ", at(points[i]), " makes the path too long: more than ", kMaxPathPoints,
-                                " points ", metres(spacing), " apart (~path_spacing)"));
-    }
   }
+  bounds.require(length, count);
   if (points.size() >= 2) return;
   throw InvalidRequest(text("way_point has ", count_given, " points", count_given > 1 ? ", all in one place" : "",
                             "; at least 2 in different places are needed"));
@@ -241,7 +238,6 @@ WaypointPath sampled(const DistinctLine& given, const std::vector<Direction>& ge
   for (ReferencePoint& point : result.path) point.speed = speed;
   setArcLengths(&result.path);
   setCurvatures(&result.path);
-  limitSpeeds(vehicle, &result.path);
   result.tight_bends = sampler.tightBends(result.path, vehicle.maxKappa());
   return result;
 }
@@ -259,15 +255,16 @@ std::vector<WaypointPlace> placesOf(const std::vector<Point2d>& points) {
   return places;
 }
 
-void checkWaypoints(const WaypointLine& line, double spacing) {
+void checkWaypoints(const WaypointLine& line, double spacing, const PathBounds& bounds) {
   const DistinctLine given = distinct(line);
-  requirePoints(given, line.points.size(), spacing);
+  requirePoints(given, line.points.size(), spacing, bounds);
   gearsOf(given);
 }
 
-WaypointPath pathThrough(const WaypointLine& line, const VehicleParams& vehicle, double spacing, double target_speed) {
+WaypointPath pathThrough(const WaypointLine& line, const VehicleParams& vehicle, double spacing, double target_speed,
+                         const PathBounds& bounds) {
   DistinctLine given = distinct(line);
-  requirePoints(given, line.points.size(), spacing);
+  requirePoints(given, line.points.size(), spacing, bounds);
   const std::vector<Direction> gears = gearsOf(given);
   const double speed = target_speed > 0.0 ? target_speed : vehicle.max_speed;
   const std::optional<double> wished = given.line.headings.empty() ? given.line.end_heading : std::nullopt;

@@ -101,7 +101,6 @@ class PathBuilder {
       point.speed = field_.vehicle().max_speed;
     }
     setArcLengths(&path);
-    limitSpeeds(field_.vehicle(), &path);
     result_->length = path.empty() ? 0.0 : path.back().s;
     result_->gear_changes = gearChanges(path);
     for (std::size_t i = 1; i < result_->swaths.size(); ++i) {

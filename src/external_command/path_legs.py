@@ -22,7 +22,8 @@ class PathWithoutLength(PathError):
 def split_legs(points):
     """[(points, gear)] of a path, cut at its gear changes; the cusp belongs to both sides.
 
-    Points that repeat their predecessor are left out. Raises PathError.
+    Points that repeat their predecessor are left out. Raises PathError, also where a speed limit of 0 orders a stop
+    that is no end of a leg: the vehicle would wait there for ever.
     """
     if len(points) < 2:
         raise PathError("the path has %d points; at least 2 are needed" % len(points))
@@ -46,6 +47,7 @@ def split_legs(points):
         raise PathWithoutLength("the path has no length: all of its %d points are the same" % len(points))
     for part, gear in legs:
         _check_headings(part, gear)
+        _check_speeds(part)
     return legs
 
 
@@ -54,6 +56,17 @@ def _gear(index, point):
         raise PathError("point %d of the path has direction %s; 1 (forward) or -1 (reverse) is needed" %
                         (index, point.direction))
     return point.direction or FORWARD
+
+
+def _check_speeds(points):
+    for p in points:
+        if p.speed < 0.0:
+            raise PathError("the path has a speed limit of %g m/s at (%.2f, %.2f); it must not be negative" %
+                            (p.speed, p.x, p.y))
+    for p in points[1:-1]:
+        if p.speed == 0.0:
+            raise PathError("the path has a speed limit of 0 at (%.2f, %.2f), inside a leg: the vehicle would wait "
+                            "there for ever" % (p.x, p.y))
 
 
 def _without_repetitions(points):

@@ -3,7 +3,8 @@
 
 The path is cut into legs between gear changes. Steering is the curvature of the path plus a feedback of the lateral
 and the heading error that makes both decay critically damped in the distance driven; speed obeys the path's limits,
-what the bends and the steering rate allow, and what can be braked for.
+what the bends and the steering rate allow, and what can be braked for. A limit of 0 ends a leg and means nothing else: a
+path with one elsewhere is refused.
 """
 
 import collections
@@ -27,13 +28,10 @@ Control = collections.namedtuple("Control", "speed steering")
 class PathTracker:
     """Where a vehicle is on a path, and how it goes on."""
 
-    def __init__(self, points, limits, default_speed):
-        """`points`: external_command/PathPoint or alike. `default_speed` [m/s] holds where a point gives none.
-
-        Raises PathError.
-        """
+    def __init__(self, points, limits):
+        """`points`: external_command/PathPoint or alike. Raises PathError."""
         self._limits = limits
-        self._legs = [Leg(part, gear, limits, default_speed) for part, gear in split_legs(points)]
+        self._legs = [Leg(part, gear, limits) for part, gear in split_legs(points)]
         self._index = 0
         self._s = 0.0  # of the foot point on the present leg [m]
 
@@ -122,7 +120,7 @@ class PathTracker:
 class Leg:
     """A part of a path driven in one gear, sampled evenly."""
 
-    def __init__(self, points, gear, limits, default_speed):
+    def __init__(self, points, gear, limits):
         self.gear = gear
         xy = [(p.x, p.y) for p in points]
         lengths = arc_lengths(xy)
@@ -130,7 +128,7 @@ class Leg:
         count = max(2, int(math.ceil(self.length / SPACING)))
         self._spacing = self.length / count
         self._sample(points, xy, lengths, count)
-        self._limit_speeds(points, lengths, limits, default_speed)
+        self._limit_speeds(points, lengths, limits)
 
     def at(self, s):
         """(x, y, heading) at `s`; the heading is not wrapped."""
@@ -182,13 +180,13 @@ class Leg:
             self.points.append((a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])))
             self._headings.append(heading + t * wrap_angle(points[i + 1].heading - points[i].heading))
 
-    def _limit_speeds(self, points, lengths, limits, default_speed):
+    def _limit_speeds(self, points, lengths, limits):
         """Curvatures, and squared speed limits: these are linear in s under even braking.
 
         The curvature is a mean over a stretch that grows with the speed. Where the path's own jumps (from a straight to
         an arc) the wheels then turn evenly around the jump, which keeps the vehicle within centimetres of the path.
         """
-        caps = self._given_speeds(points, lengths, limits, default_speed)
+        caps = self._given_speeds(points, lengths, limits)
         kappas = self._mean_curvatures([0.5] * len(caps))
         slow = [min(cap, math.sqrt(limits.max_lateral_acceleration / max(abs(kappa), 1e-6)))
                 for cap, kappa in zip(caps, kappas)]
@@ -200,15 +198,18 @@ class Leg:
             slow[i] = min(cap, max(CRAWL_SPEED, 0.8 * limits.max_steering_rate * self._spacing / max(turned, 1e-6)))
         self._squared_speeds = self._braked(slow, limits)
 
-    def _given_speeds(self, points, lengths, limits, default_speed):
-        """The limits of the path for each sample; 0 means not given, since stops are known from the gears."""
+    def _given_speeds(self, points, lengths, limits):
+        """The limits of the path for each sample, evenly braked from one to the next."""
         top = limits.max_speed if self.gear == FORWARD else limits.max_reverse_speed
+        squares = [min(p.speed, top) ** 2 for p in points]
+        squares[0] = squares[0] or squares[1] or top ** 2  # the stop at a cusp belongs to the leg that arrives there
         speeds, i = [], 0
         for n in range(len(self.points)):
-            while i + 2 < len(points) and lengths[i + 1] < n * self._spacing:
+            s = min(n * self._spacing, self.length)
+            while i + 2 < len(points) and lengths[i + 1] < s:
                 i += 1
-            given = [p.speed for p in points[i:i + 2] if p.speed > 0.0]
-            speeds.append(min([top] + (given or [default_speed])))
+            t = (s - lengths[i]) / (lengths[i + 1] - lengths[i])
+            speeds.append(math.sqrt(max(0.0, squares[i] + t * (squares[i + 1] - squares[i]))))
         return speeds
 
     def _mean_curvatures(self, half_widths):

@@ -11,6 +11,7 @@ import re
 from external_command import bicycle
 from external_command.any_message import WrongType, unpack
 from external_command.msg import CommandStatus, PlanningCommand, PlanningPad, SpeedCommand
+from external_command.path_check import faults, start_fault
 from external_command.path_legs import FORWARD, PathError, PathWithoutLength
 from external_command.path_tracker import PathTracker
 from external_command.plane import distance, wrap_angle
@@ -31,13 +32,15 @@ ACKNOWLEDGED = {
 @dataclasses.dataclass(frozen=True)
 class PlannerSettings:
     map_frame: str = "map"
-    default_speed: float = 5.0  # where neither path nor command gives one [m/s]
     max_start_distance: float = 25.0  # from the vehicle to the path [m]
     end_tolerance: float = 0.3  # of the position in which the vehicle stops [m]
     end_heading_tolerance: float = 0.2  # [rad]
     gear_change_time: float = 0.5  # standing [s]
     pull_over_offset: float = 1.0  # to the right of the path [m]
     pull_over_deceleration: float = 1.0  # [m/s^2]
+    refuse_bad_paths: bool = False  # what path_check finds wrong; false: it is only told, and driven if that can be
+    allow_tight_bends: bool = False  # these are then not wrong: commands may ask for what is beyond the vehicle
+    reaction_time: float = 1.0  # between the pose that a path was planned for and its arrival here, at most [s]
     acknowledge_time: float = 2.0  # for which a pad action without motion shows as scenario [s]
 
 
@@ -66,6 +69,7 @@ class SimulatedPlanner:
         self.state = state
         self.gear = FORWARD
         self.statuses = []  # CommandStatus, header not filled; the owner publishes and clears them
+        self.faults = []  # texts on paths that are driven although they should not be; the owner tells and clears them
         self._limits = limits
         self._settings = settings
         self._task = None
@@ -180,12 +184,22 @@ class SimulatedPlanner:
             raise PathError("the path is in frame %s; this vehicle drives in %s" % (frame, self._settings.map_frame))
         if not (math.isfinite(command.target_speed) and command.target_speed >= 0.0):
             raise PathError("target_speed is %s; it must be finite and not negative" % command.target_speed)
-        tracker = PathTracker(command.path.points, self._limits, self._settings.default_speed)
+        tracker = PathTracker(command.path.points, self._limits)
+        self._check_path(command)
         away = tracker.start_distance(self.state)
         if away > self._settings.max_start_distance:
             raise PathError("the path begins %.1f m from the vehicle; the limit is %.1f m (~max_start_distance)" %
                             (away, self._settings.max_start_distance))
         return tracker
+
+    def _check_path(self, command):
+        points = command.path.points
+        found = faults(points, self._limits, not self._settings.allow_tight_bends)
+        allowed = 0.3 + self._settings.reaction_time * abs(self.state.speed)
+        found += filter(None, [start_fault(points, self.state, allowed)])
+        if found and self._settings.refuse_bad_paths:
+            raise PathError("the path cannot be driven as it is: " + "; ".join(found))
+        self.faults += ["the path of command %d: %s" % (command.command_id, fault) for fault in found]
 
     def _stands_at(self, point):
         return (self.state.speed == 0.0 and

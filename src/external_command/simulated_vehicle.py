@@ -18,7 +18,7 @@ from external_command.simulated_chassis import ChassisSettings, SimulatedChassis
 from external_command.simulated_planner import PlannerSettings, SimulatedPlanner
 
 STEP = 0.02  # simulated [s]
-KIND_NAMES = {float: "a finite number", int: "a whole number", str: "a text"}
+KIND_NAMES = {float: "a finite number", int: "a whole number", str: "a text", bool: "true or false"}
 LONGEST_BACKLOG = 0.5  # of real time that is made up for after the machine was busy [s]
 
 
@@ -52,6 +52,8 @@ class SimulatedVehicleNode:
                 raise BadParameter("~%s is %s; it must be above 0" % (name, getattr(settings, name)))
         limits = read_parameters(bicycle.VehicleLimits, "vehicle/")
         planner_settings = read_parameters(PlannerSettings)
+        planner_settings = dataclasses.replace(
+            planner_settings, reaction_time=planner_settings.reaction_time * max(1.0, settings.real_time_factor))
         self._settings = settings
         self._map_frame = planner_settings.map_frame
         self._started = rospy.Time.now()
@@ -159,6 +161,9 @@ class SimulatedVehicleNode:
             if status.status != CommandStatus.RUNNING and status.command_id > 0:
                 rospy.loginfo("command %d: %s", status.command_id, status.message)
         del self._planner.statuses[:]
+        for fault in self._planner.faults:
+            rospy.logwarn("%s", fault)
+        del self._planner.faults[:]
 
     def _is_due(self, name, now, rate):
         if now < self._due.get(name, 0.0):

@@ -263,7 +263,6 @@ class Planning {
       point.speed = vehicle_.max_speed;
     }
     if (params_.continuous_curvature) limitSteering(vehicle_, path);
-    limitSpeeds(vehicle_, path);
   }
 
   Clock::time_point begin_;

@@ -167,7 +167,7 @@ void PathFollowCommandProcessor::check(const PathFollowCommand& command) const {
   checkBorders(command);
   requireNotNegative(command.target_speed, "target_speed");
   const Pose2d frame = context().vehiclePose().ofFrame(command.header.frame_id);
-  checkWaypoints(toLine(command, frame), context().params().reference_path.spacing);
+  checkWaypoints(toLine(command, frame), context().params().reference_path.spacing, context().params().path_bounds);
 }
 
 /// Where the vehicle is need not be known to follow a path.
@@ -187,7 +187,8 @@ void PathFollowCommandProcessor::processSpecialCommand(const PathFollowCommand& 
   const Pose2d frame = context().vehiclePose().ofFrame(command.header.frame_id);
   const WaypointLine line = toLine(command, frame);
   checkStart(line.points.front(), &plan->report.warnings);
-  WaypointPath result = pathThrough(line, params.vehicle, params.reference_path.spacing, command.target_speed);
+  WaypointPath result =
+      pathThrough(line, params.vehicle, params.reference_path.spacing, command.target_speed, params.path_bounds);
   warnOfNarrowPath(command, params.vehicle.width, &plan->report.warnings);
   warnOfTightBends(result.tight_bends, params.vehicle.min_turning_radius, &plan->report.warnings);
   warnOfEndHeading(result, &plan->report.warnings);

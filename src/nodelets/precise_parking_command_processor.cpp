@@ -29,7 +29,6 @@ Path straightPath(const Pose2d& from, double length, Direction direction, double
     point.speed = vehicle.max_speed;
     path.push_back(point);
   }
-  limitSpeeds(vehicle, &path);
   return path;
 }
 

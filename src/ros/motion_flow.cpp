@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -47,6 +48,23 @@ std::optional<std::size_t> placeOnFirstLeg(const Path& path, const Pose2d& vehic
   return place;
 }
 
+/// A part of a path that was sent: its limits as caps, its stops left to the whole that it becomes a piece of.
+Path asPiece(Path sent) {
+  for (ReferencePoint& point : sent) {
+    if (point.speed <= 0.0) point.speed = std::numeric_limits<double>::infinity();
+  }
+  return sent;
+}
+
+/// A cap of 0 would be taken for an order to stop, and the vehicle would wait there for ever.
+void requireMotion(const Path& path) {
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (path[i].speed > 0.0) continue;
+    throw InternalError(text("point ", i, " of the planned path, ", at(path[i].pose()), ", has the speed ",
+                             path[i].speed, "; a cap must be above 0"));
+  }
+}
+
 }  // namespace
 
 MotionFlow::MotionFlow(ProcessContext& context, const std::vector<std::string>& command_topics,
@@ -65,6 +83,8 @@ void MotionFlow::addRoute(const RoutingTask& task, double target_speed, const Ca
   const Router& router = context_.requireRouter();
   const HdMap& map = router.map();
   plan->route = router.findRoute(task.query, cancel);
+  const double spacing = context_.params().reference_path.spacing;
+  context_.params().path_bounds.require(plan->route->distance, plan->route->distance / spacing);
   plan->path =
       referencePath(map, *plan->route, context_.params().vehicle, context_.params().reference_path, target_speed);
   RoutingResponse& response = plan->command.lane_follow_command;
@@ -84,11 +104,12 @@ void MotionFlow::assemble(double target_speed, bool begins_at_vehicle, MotionPla
   const Path& approach = plan->start.approach();
   if (begins_at_vehicle && !approach.empty()) {
     const std::size_t planned = plan->path.size();
-    plan->path = join(approach, plan->path);
+    plan->path = join(asPiece(approach), plan->path);
     plan->index_shift = static_cast<std::ptrdiff_t>(plan->path.size()) - static_cast<std::ptrdiff_t>(planned);
-    limitSpeeds(context_.params().vehicle, &plan->path);
   }
   if (plan->path.size() == 1) plan->path.push_back(plan->path.front());  // the vehicle is there; still a path
+  context_.params().path_bounds.require(plan->path);
+  requireMotion(plan->path);
   if (target_speed > 0.0) {
     for (ReferencePoint& point : plan->path) point.speed = std::min(point.speed, target_speed);
   }
@@ -108,6 +129,7 @@ bool MotionFlow::fitToVehicle(const Pose2d& seen_at, MotionPlan* plan) const {
 }
 
 void MotionFlow::complete(std::int64_t command_id, double target_speed, MotionPlan* plan) const {
+  limitSpeeds(context_.params().vehicle, &plan->path);
   PlanningCommand& command = plan->command;
   command.header.stamp = ros::Time::now();
   command.header.frame_id = context_.params().map_frame;

@@ -240,6 +240,16 @@ ReferencePathParams readReferencePathParams(const ParameterReader& reader) {
   return params;
 }
 
+PathBounds readPathBounds(const ParameterReader& reader) {
+  PathBounds bounds;
+  int max_points = static_cast<int>(bounds.max_points);
+  reader.read("max_path_length", &bounds.max_length);
+  reader.readWithin("max_path_points", 2, 10000000, &max_points);
+  bounds.max_points = static_cast<std::size_t>(max_points);
+  reader.validate(bounds);
+  return bounds;
+}
+
 MapOrigin readMapOrigin(const ParameterReader& reader) {
   const std::string key = "map_origin";
   MapOrigin origin;

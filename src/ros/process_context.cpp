@@ -88,6 +88,7 @@ ContextParams readContextParams(const ParameterReader& reader) {
   params.router.min_turning_radius = params.vehicle.min_turning_radius;
   params.lane_way = readLaneWayParams(routing);
   params.reference_path = readReferencePathParams(routing);
+  params.path_bounds = readPathBounds(routing);
   return params;
 }
 

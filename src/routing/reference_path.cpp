@@ -88,7 +88,6 @@ Path referencePath(const HdMap& map, const Route& route, const VehicleParams& ve
     path[i].speed = course[before + i].speed_limit;
     if (target_speed > 0.0) path[i].speed = std::min(path[i].speed, target_speed);
   }
-  limitSpeeds(vehicle, &path);
   return path;
 }
 

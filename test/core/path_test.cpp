@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+#include <vector>
+
 namespace external_command {
 namespace {
 
@@ -72,10 +76,18 @@ TEST(Path, JoinsWithoutRepeatingTheJoint) {
   for (std::size_t i = 1; i < path.size(); ++i) EXPECT_GT(path[i].s, path[i - 1].s);
 }
 
-TEST(Path, StopsAtAJointWhereTheGearChangesAndNowhereElse) {
-  EXPECT_EQ(aheadAndBack()[20].speed, 0.0);
-  const Path first = arc({0, 0, 0}, 0.0, 0.5, 21);
-  EXPECT_EQ(join(first, arc(first.back().pose(), 0.1, 0.5, 11))[20].speed, 10.0);
+TEST(Path, KeepsTheCapsOfBothPiecesAtAJoint) {
+  Path first = arc({0, 0, 0}, 0.0, 0.5, 21);
+  for (ReferencePoint& point : first) point.speed = 3.0;
+  const Path joined = join(first, arc(first.back().pose(), 0.1, 0.5, 11, Direction::kReverse));
+  EXPECT_EQ(joined[20].speed, 3.0);
+  EXPECT_EQ(joined[21].speed, 10.0);
+}
+
+TEST(Path, IsInTheSecondGearWhereTheFirstPieceIsASinglePoint) {
+  const Path path = join(arc({}, 0.0, 1.0, 1), arc({}, 0.1, 0.5, 5, Direction::kReverse));
+  EXPECT_EQ(path.front().direction, Direction::kReverse);
+  EXPECT_EQ(gearChanges(path), 0u);
 }
 
 TEST(Path, JoinsWithNothing) {
@@ -101,16 +113,41 @@ TEST(SpeedLimits, StopAtTheEndAndWhereTheGearChanges) {
   EXPECT_EQ(path.back().speed, 0.0);
 }
 
-TEST(SpeedLimits, CanBeBrakedForEverywhere) {
-  const VehicleParams vehicle;
-  Path path = arc({}, 0.0, 0.5, 201);
-  limitSpeeds(vehicle, &path);
+/// Of the change of speed on the way to each point, the first left out [m/s^2].
+std::vector<double> accelerations(const Path& path) {
+  std::vector<double> values;
   for (std::size_t i = 1; i < path.size(); ++i) {
     const double before = path[i - 1].speed, after = path[i].speed;
-    const double deceleration = (before * before - after * after) / (2.0 * (path[i].s - path[i - 1].s));
-    EXPECT_LE(deceleration, vehicle.max_deceleration + 1e-9);
+    values.push_back((after * after - before * before) / (2.0 * (path[i].s - path[i - 1].s)));
+  }
+  return values;
+}
+
+TEST(SpeedLimits, CanBeBrakedForAndSpedUpToEverywhere) {
+  const VehicleParams vehicle;
+  const Path first = arc({}, 0.0, 0.5, 201);
+  Path slow = arc(first.back().pose(), 0.0, 0.1, 101);
+  for (ReferencePoint& point : slow) point.speed = 1.0;
+  Path path = join(join(first, slow), arc(slow.back().pose(), 0.0, 0.5, 201));
+  limitSpeeds(vehicle, &path);
+  for (const double acceleration : accelerations(path)) {
+    EXPECT_GE(acceleration, -vehicle.max_deceleration - 1e-9);
+    EXPECT_LE(acceleration, vehicle.max_acceleration + 1e-9);
   }
   EXPECT_EQ(path.front().speed, 10.0);
+  EXPECT_EQ(path[201].speed, 1.0);
+  EXPECT_EQ(path[430].speed, 10.0) << "as fast as the cap after the slow piece";
+}
+
+TEST(SpeedLimits, AreAbove0OutsideOfTheStops) {
+  Path path = aheadAndBack();
+  for (ReferencePoint& point : path) point.speed = std::numeric_limits<double>::infinity();
+  limitSpeeds({}, &path);
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const bool stops = i == 20 || i == 30;
+    EXPECT_EQ(path[i].speed == 0.0, stops) << i;
+    EXPECT_TRUE(std::isfinite(path[i].speed));
+  }
 }
 
 TEST(SpeedLimits, KeepToBendsGearsAndWhatWasThereBefore) {

@@ -17,7 +17,9 @@ namespace {
 constexpr double kSpacing = 0.5;  // [m]
 
 WaypointPath through(const WaypointLine& line, double target_speed = 0.0) {
-  return pathThrough(line, VehicleParams(), kSpacing, target_speed);
+  WaypointPath result = pathThrough(line, VehicleParams(), kSpacing, target_speed);
+  limitSpeeds(VehicleParams(), &result.path);
+  return result;
 }
 
 /// `count` points of a circle of `radius` [m] about the origin, `step` [m] apart, counter-clockwise from (radius, 0).

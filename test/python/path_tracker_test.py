@@ -8,7 +8,7 @@ from external_command.msg import PathPoint
 from external_command.path_legs import PathError, split_legs
 from external_command.path_tracker import PathTracker
 from external_command.plane import distance
-from paths import DT, LIMITS, PARKING, make_path, state_at
+from paths import DT, LIMITS, PARKING, limited, make_path, state_at
 
 
 def offset_from(points, state):
@@ -25,7 +25,7 @@ def offset_from(points, state):
 class PathTrackerTest(unittest.TestCase):
     def drive(self, points, start=None, limit=600.0):
         """Every state on the way to the end of the path; fails where it is not reached within `limit` [s]."""
-        tracker = PathTracker(points, LIMITS, 5.0)
+        tracker = PathTracker(points, LIMITS)
         states = [start or state_at(points[0])]
         while len(states) * DT < limit:
             state = states[-1]
@@ -61,6 +61,11 @@ class PathTrackerTest(unittest.TestCase):
 
     def test_takes_a_sparse_path(self):
         self.assert_drives([PathPoint(x=0.0), PathPoint(x=40.0, direction=1)])
+
+    def test_is_as_fast_as_the_limits_of_a_path_and_stops_at_its_zeros(self):
+        states = self.assert_drives(limited(make_path(PARKING, speed=1.0)), within=0.05)
+        self.assertAlmostEqual(max(abs(state.speed) for state in states), 1.0, delta=0.01)
+        self.assertLess(len(states) * DT, 60.0, "it does not crawl")
 
     def test_follows_random_manoeuvres(self):
         seed = 20
@@ -112,7 +117,7 @@ class SplitLegsTest(unittest.TestCase):
             self.assertIs(before[-1], after[0])
 
     def test_leaves_out_repeated_points(self):
-        points = [PathPoint(x=x, direction=1) for x in (0.0, 0.0, 1.0, 1.0, 1.0, 2.0)]
+        points = [PathPoint(x=x, speed=1.0, direction=1) for x in (0.0, 0.0, 1.0, 1.0, 1.0, 2.0)]
         self.assertEqual([p.x for p in split_legs(points)[0][0]], [0.0, 1.0, 2.0])
 
     def test_refuses_what_cannot_be_driven_and_says_why(self):
@@ -122,6 +127,8 @@ class SplitLegsTest(unittest.TestCase):
                              ([point(), point(x=1.0, speed=math.inf)], "point 1 of the path is not finite"),
                              ([point(), point(x=1.0, direction=5)], "direction 5"),
                              ([point(), point(x=1e300)], "1e\\+300 m long"),
+                             ([point(speed=1.0), point(x=1.0), point(x=2.0)], "limit of 0 at \\(1.00, 0.00\\)"),
+                             ([point(), point(x=1.0, speed=-1.0)], "limit of -1 m/s"),
                              ([point(), point(y=1.0)], "off its heading"),
                              ([point(), point(x=1.0, direction=-1)], "off its heading")):
             with self.assertRaisesRegex(PathError, text):

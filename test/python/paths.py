@@ -33,6 +33,21 @@ def make_path(pieces, start=(0.0, 0.0, 0.0), speed=5.0, spacing=0.1):
     return points
 
 
+def limited(points, limits=LIMITS):
+    """The same points, their speeds as the limits of a path have to be: stops at its cusps and end, changes that the
+    vehicle can follow."""
+    for i, p in enumerate(points):
+        top = limits.max_speed if p.direction == 1 else limits.max_reverse_speed
+        p.speed = min(p.speed, top, math.sqrt(limits.max_lateral_acceleration / max(abs(p.kappa), 1e-6)))
+        if i + 1 == len(points) or (i > 0 and points[i + 1].direction != p.direction):
+            p.speed = 0.0
+    for a, b in reversed(list(zip(points, points[1:]))):
+        a.speed = min(a.speed, math.sqrt(b.speed ** 2 + 2.0 * limits.max_deceleration * (b.s - a.s)))
+    for a, b in zip(points, points[1:]):
+        b.speed = min(b.speed, math.sqrt(a.speed ** 2 + 2.0 * limits.max_acceleration * (b.s - a.s)))
+    return points
+
+
 # Reverse into a space at the right: forward past it in a bend, then back in a tighter one and straight in.
 PARKING = [(8.0, 0.0), (5.0, 0.19), (-4.0, -0.19), (-6.0, 0.2), (-4.0, 0.0)]
 

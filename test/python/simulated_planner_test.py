@@ -7,7 +7,7 @@ from external_command.bicycle import VehicleState
 from external_command.msg import (CommandStatus, FreeSpaceCommand, PathPoint, PlanningCommand, PlanningPad,
                                   SpeedCommand, ZoneCoverCommand)
 from external_command.simulated_planner import PlannerSettings, SimulatedPlanner, scenario_of
-from paths import DT, LIMITS, make_path, motion_command
+from paths import DT, LIMITS, limited, make_path, motion_command
 
 
 class SimulatedPlannerTest(unittest.TestCase):
@@ -82,6 +82,30 @@ class SimulatedPlannerTest(unittest.TestCase):
             self.assertEqual(self.statuses[-1].error_code, CommandStatus.INVALID_REQUEST)
         self.drive_to_end()
         self.assert_last(7, CommandStatus.FINISHED)
+
+    def test_refuses_what_no_controller_can_follow_only_where_that_is_asked_for(self):
+        for refuse in (False, True):
+            planner = SimulatedPlanner(LIMITS, PlannerSettings(refuse_bad_paths=refuse), VehicleState())
+            planner.accept(motion_command(make_path([(30.0, 0.0)])))
+            self.assertEqual(planner.has_task, not refuse)
+            self.assertIn("where the vehicle must stop", planner.statuses[-1].message if refuse else planner.faults[0])
+            planner.accept(motion_command(limited(make_path([(30.0, 0.0)])), command_id=8))
+            self.assertEqual(planner.statuses[-1].status, CommandStatus.RUNNING)
+
+    def test_refuses_a_path_that_begins_elsewhere_where_that_is_asked_for(self):
+        planner = SimulatedPlanner(LIMITS, PlannerSettings(refuse_bad_paths=True), VehicleState())
+        planner.accept(motion_command(limited(make_path([(30.0, 0.0)], start=(1.0, 0.0, 0.0)))))
+        self.assertIn("begins 1.00 m from the vehicle", planner.statuses[-1].message)
+        planner.place(VehicleState(0.0, 0.0, 0.0, speed=5.0))
+        planner.accept(motion_command(limited(make_path([(30.0, 0.0)], start=(1.0, 0.0, 0.0)))))
+        self.assertEqual(planner.statuses[-1].status, CommandStatus.RUNNING)
+
+    def test_takes_bends_beyond_the_vehicle_where_they_are_allowed(self):
+        for allow in (False, True):
+            settings = PlannerSettings(refuse_bad_paths=True, allow_tight_bends=allow)
+            planner = SimulatedPlanner(LIMITS, settings, VehicleState())
+            planner.accept(motion_command(limited(make_path([(5.0, 0.3)]))))
+            self.assertEqual(planner.has_task, allow)
 
     def test_refuses_a_path_in_another_frame(self):
         command = motion_command(make_path([(5.0, 0.0)]))

@@ -194,7 +194,8 @@ TEST_P(RealMapRoutes, HavePathsThatCanBeDriven) {
     SCOPED_TRACE(described(query));
     const auto found = route(router, query);
     if (!found) continue;
-    const Path path = referencePath(*map_, *found, VehicleParams(), params, 0.0);
+    Path path = referencePath(*map_, *found, VehicleParams(), params, 0.0);
+    limitSpeeds(VehicleParams(), &path);
     EXPECT_TRUE(isContinuous(path, 1.2 * params.spacing));
     EXPECT_TRUE(staysNear(path, *found, *map_, hasChanges(*found) ? 2.5 : 0.5));
     const Point2d start = map_->lane(query.starts[0].lane).center.pointAt(query.starts[0].s);

@@ -21,7 +21,8 @@ class ReferencePathWorld : public RoutingWorld {
   /// A path of the map as it is, checked against the route.
   Path path(const Place& start, const Place& goal, double target_speed = 0.0) {
     const Route route = drive(start, goal);
-    const Path path = referencePath(map(), route, vehicle, path_params, target_speed);
+    Path path = referencePath(map(), route, vehicle, path_params, target_speed);
+    limitSpeeds(vehicle, &path);
     EXPECT_TRUE(isContinuous(path, 1.1 * path_params.spacing));
     const Lane &first = map().lane(laneIndex(map(), start.lane)), &last = map().lane(laneIndex(map(), goal.lane));
     EXPECT_LT((path.front().pose().position() - first.center.pointAt(start.s)).norm(), 1e-9);
@@ -208,7 +209,8 @@ TEST_F(TwoLaneRoad, CanBeSteeredWhereAChangeHasNoMoreRoomThanTwoArcsNeed) {
 
 TEST_F(TwoLaneRoad, GoesThereAndBackAroundABlock) {
   const Route route = drive({"r1", 0}, {}, {"r2", 60}, {{"r1", 50, 60}, {"r2", 0, 10}});
-  const Path detour = referencePath(map(), route, vehicle, path_params, 0.0);
+  Path detour = referencePath(map(), route, vehicle, path_params, 0.0);
+  limitSpeeds(vehicle, &detour);
   EXPECT_TRUE(isContinuous(detour, 0.55));
   for (const ReferencePoint& point : detour) {
     if (point.x > 51.0 && point.x < 69.0) {
@@ -229,7 +231,8 @@ TEST(ReferencePath, DrivesALoop) {
   const auto map = builder.build();
   const Router router(map, {});
   const Route route = router.findRoute({{{0, 10.0}}, {}, {{0, 9.0}}, {}}, CancelToken());
-  const Path path = referencePath(*map, route, VehicleParams(), ReferencePathParams(), 0.0);
+  Path path = referencePath(*map, route, VehicleParams(), ReferencePathParams(), 0.0);
+  limitSpeeds(VehicleParams(), &path);
   EXPECT_TRUE(isContinuous(path, 0.55));
   EXPECT_NEAR(path.back().s, 2.0 * M_PI * 15.0 - 1.0, 0.2);
   for (const ReferencePoint& point : path) EXPECT_NEAR(point.kappa, 1.0 / 15.0, 0.01);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "external_command/core/pose.h"
@@ -18,7 +19,9 @@ struct ReferencePoint {
   double heading = 0.0;  ///< of the vehicle, not of the motion [rad]
   double kappa = 0.0;    ///< signed curvature of the vehicle's turn, positive to the vehicle's left [1/m]
   double s = 0.0;        ///< distance driven from the first point, never decreasing [m]
-  double speed = 0.0;    ///< limit at this point, never negative [m/s]
+  /// Limit at this point [m/s]. On a piece of a path it is a cap of that piece's own, above 0; limitSpeeds() makes the
+  /// limits of the whole of the caps.
+  double speed = std::numeric_limits<double>::infinity();
   Direction direction = Direction::kForward;  ///< the gear in which the vehicle arrives here
   bool tool_on = false;                       ///< the vehicle arrives here working (coverage)
 
@@ -27,8 +30,7 @@ struct ReferencePoint {
 
 using Path = std::vector<ReferencePoint>;
 
-/// `first` and then `second`, whose first point is where `first` ends; `s` runs on.
-/// A vehicle that ends `first` in one gear and begins `second` in the other stops at the joint.
+/// `first` and then `second`, whose first point is where `first` ends; `s` runs on. Caps of the speed stay as they are.
 Path join(const Path& first, const Path& second);
 
 /// Sets `s` of every point from the positions.
@@ -37,8 +39,9 @@ void setArcLengths(Path* path);
 /// Sets `kappa` from headings and positions, leg by leg between gear changes.
 void setCurvatures(Path* path);
 
-/// Lowers each point's `speed` to what bend (lateral acceleration) and gear allow, then to what can be braked for:
-/// the last point, and every point at which the gear changes, get speed 0.
+/// Makes limits of the caps of a whole path: lowers each point's `speed` to what bend (lateral acceleration) and gear
+/// allow, and then to what can be braked for and sped up to from point to point. The last point, and every point at
+/// which the gear changes, get 0: the vehicle stops there, and nowhere else. The first point may be passed at speed.
 void limitSpeeds(const VehicleParams& vehicle, Path* path);
 
 double reverseLength(const Path& path);  ///< [m]

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "external_command/core/path.h"
+#include "external_command/core/path_bounds.h"
 
 namespace external_command {
 
@@ -40,9 +40,9 @@ struct WaypointPath {
   double end_turn = 0.0;  ///< from the heading at the path's end to a wished one that it cannot end with [rad]
 };
 
-/// @throws InvalidRequest  fewer than two places; a point that is not finite; a heading across the line; a path of more
-///                         than 200,000 points `spacing` [m] apart. The text names it as `way_point[i]`, `heading[i]`.
-void checkWaypoints(const WaypointLine& line, double spacing);
+/// @throws InvalidRequest  fewer than two places; a point that is not finite; a heading across the line (the text
+///                         names it as `way_point[i]`, `heading[i]`); a path beyond `bounds`.
+void checkWaypoints(const WaypointLine& line, double spacing, const PathBounds& bounds = {});
 
 /// Path of the rear-axle centre through every point of `line`, at most `spacing` [m] between two of its points.
 ///
@@ -51,8 +51,9 @@ void checkWaypoints(const WaypointLine& line, double spacing);
 /// reverses from one point to the next where its headings there point against the motion. It ends with a wished
 /// `end_heading` where that takes no bend that is too tight for the vehicle; else as if none were wished.
 ///
-/// Speeds: `target_speed` [m/s] (0: not given), lowered to what vehicle, bends and braking allow.
+/// Its speed is capped by `target_speed` [m/s] (0: not given).
 /// @throws InvalidRequest  as checkWaypoints().
-WaypointPath pathThrough(const WaypointLine& line, const VehicleParams& vehicle, double spacing, double target_speed);
+WaypointPath pathThrough(const WaypointLine& line, const VehicleParams& vehicle, double spacing, double target_speed,
+                         const PathBounds& bounds = {});
 
 }  // namespace external_command

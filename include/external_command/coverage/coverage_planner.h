@@ -37,7 +37,7 @@ struct Swath {
 };
 
 struct CoverageResult {
-  Path path;                     ///< of the rear-axle centre; `tool_on` where the vehicle arrives working
+  Path path;                     ///< of the rear-axle centre; `tool_on` where it arrives working; speeds are caps
   std::vector<Swath> swaths;     ///< in the order of the path
   std::vector<SwathLine> lines;  ///< all laps and swaths of the plan in their order, those that are done included
 

@@ -14,7 +14,7 @@
 namespace external_command {
 
 struct FreeSpaceResult {
-  Path path;                    ///< of the rear-axle centre, from start to goal, speed limits included
+  Path path;                    ///< of the rear-axle centre, from start to goal; speeds are caps, see limitSpeeds()
   double cost = 0.0;            ///< see FreeSpaceParams [m]
   double length = 0.0;          ///< driven, in both gears [m]
   double reverse_length = 0.0;  ///< of it in reverse [m]

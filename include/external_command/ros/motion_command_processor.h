@@ -40,7 +40,8 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
     return std::nullopt;
   }
 
-  /// Adds the command's own part: to `plan->command`, and a manoeuvre to `plan->path` by join().
+  /// Adds the command's own part: to `plan->command`, and a manoeuvre to `plan->path` by join(),
+  /// its speeds as caps.
   /// @throws Error  the command is refused; nothing was sent.
   virtual void processSpecialCommand(const Command& /*command*/, const CancelToken& /*cancel*/, MotionPlan* /*plan*/) {}
 

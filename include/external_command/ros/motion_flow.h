@@ -18,7 +18,8 @@ class MotionFlow {
   /// Searches the route and starts `plan` with its reference path.
   void addRoute(const RoutingTask& task, double target_speed, const CancelToken& cancel, MotionPlan* plan) const;
 
-  /// Fills what is left of the path.
+  /// Fills what is left of the path; its speeds are still caps.
+  /// @throws InvalidRequest  the path is too large.
   /// @param begins_at_vehicle  the way to plan.start() is put in front of it.
   void assemble(double target_speed, bool begins_at_vehicle, MotionPlan* plan) const;
 
@@ -28,7 +29,7 @@ class MotionFlow {
   /// @return  false where it is not on the path.
   bool fitToVehicle(const Pose2d& seen_at, MotionPlan* plan) const;
 
-  /// Fills what is left of command, report and scene from the path.
+  /// Computes the speeds of the whole path, and fills what is left of command, report and scene from it.
   void complete(std::int64_t command_id, double target_speed, MotionPlan* plan) const;
 
   /// Sends the plan and shows it, unless a stop or a newer command came in between; ends the command it replaces.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "external_command/core/error.h"
+#include "external_command/core/path_bounds.h"
 #include "external_command/core/text.h"
 #include "external_command/core/vehicle.h"
 #include "external_command/map/map_reader.h"
@@ -75,6 +76,7 @@ MapParams readMapParams(const ParameterReader& reader);
 RouterParams readRouterParams(const ParameterReader& reader);
 LaneWayParams readLaneWayParams(const ParameterReader& reader);
 ReferencePathParams readReferencePathParams(const ParameterReader& reader);
+PathBounds readPathBounds(const ParameterReader& reader);
 
 /// `map_origin`: "none" (default), "auto", or [x, y] in the map's coordinates [m].
 MapOrigin readMapOrigin(const ParameterReader& reader);

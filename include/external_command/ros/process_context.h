@@ -46,6 +46,7 @@ struct ContextParams {
   RouterParams router;
   LaneWayParams lane_way;
   ReferencePathParams reference_path;
+  PathBounds path_bounds;
 };
 
 /// @throws InvalidParameter

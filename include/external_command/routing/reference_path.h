@@ -16,8 +16,8 @@ struct ReferencePathParams {
 };
 
 /// The centre line of the route with its lane changes as smooth transitions (quintic in the lateral offset, so heading
-/// and curvature have no step), sampled at `spacing`; the last point lies exactly on the route's end. Speed limits are
-/// the lanes', lowered to `target_speed` (0: not given), to what the bends allow, and to what can be braked for.
+/// and curvature have no step), sampled at `spacing`; the last point lies exactly on the route's end. Speeds are
+/// caps, see limitSpeeds(): the lanes' limits, lowered to `target_speed` (0: not given).
 Path referencePath(const HdMap& map, const Route& route, const VehicleParams& vehicle,
                    const ReferencePathParams& params, double target_speed);
 

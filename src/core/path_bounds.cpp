@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "external_command/core/path_bounds.h"
+
+#include "external_command/core/error.h"
+#include "external_command/core/text.h"
+
+namespace external_command {
+
+namespace {
+
+constexpr double kLongest = 1e7;  // [m]
+constexpr std::size_t kMostPoints = 10000000;
+
+}  // namespace
+
+void PathBounds::validate() const {
+  if (!(max_length >= 1.0 && max_length <= kLongest)) {
+    throw InvalidParameter(text("max_path_length is ", max_length, "; it must lie in [1, ", kLongest, "]"));
+  }
+  if (max_points < 2 || max_points > kMostPoints) {
+    throw InvalidParameter(text("max_path_points is ", max_points, "; it must lie in [2, ", kMostPoints, "]"));
+  }
+}
+
+void PathBounds::require(double length, double points) const {
+  if (!(length <= max_length)) {  // catches NaN
+    throw InvalidRequest(text("the path is too long: ", length < kLongest ? metres(length) : text(length, " m"),
+                              "; the limit is ", metres(max_length), " (~routing/max_path_length)"));
+  }
+  if (!(points <= static_cast<double>(max_points))) {
+    throw InvalidRequest(text("the path has too many points: ", points, "; the limit is ", max_points,
+                              " (~routing/max_path_points); a wider ~routing/path_spacing takes fewer"));
+  }
+}
+
+void PathBounds::require(const Path& path) const {
+  if (!path.empty()) require(path.back().s, static_cast<double>(path.size()));
+}
+
+}  // namespace external_command
