@@ -14,12 +14,14 @@
 #include "external_command/routing/lane_way_tool.h"
 #include "external_command/routing/reference_path.h"
 #include "grid_city.h"
+#include "path_quality.h"
 
 namespace external_command {
 namespace {
 
 constexpr int kQueries = 1000;
 constexpr double kBeside = 1.75;  // [m]
+constexpr std::size_t kPathsLookedAt = 400;
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -32,7 +34,7 @@ double quantile(std::vector<double>* values, double share) {
 
 class Measurement {
  public:
-  explicit Measurement(std::shared_ptr<const HdMap> map) : map_(std::move(map)) {
+  explicit Measurement(std::shared_ptr<const HdMap> map) : map_(std::move(map)), quality_(*map_, vehicle_) {
     for (LaneIndex i = 0; i < map_->lanes().size(); ++i) {
       if (map_->lane(i).isDrivable()) lanes_.push_back(i);
     }
@@ -55,6 +57,12 @@ class Measurement {
         << ", \"beside_lanes_us_median\": " << 1e6 * quantile(&beside_times_, 0.5)
         << ", \"beside_lanes_us_p99\": " << 1e6 * quantile(&beside_times_, 0.99)
         << ", \"path_us_per_km_median\": " << 1e6 * quantile(&path_times_per_km_, 0.5)
+        << ", \"path_us_per_km_p99\": " << 1e6 * quantile(&path_times_per_km_, 0.99)
+        << ", \"paths_looked_at\": " << quality_.paths() << ", \"over_curvature_share\": " << quality_.shareOverLimit()
+        << ", \"over_curvature_untold_share\": " << quality_.shareUntold()
+        << ", \"worst_curvature\": " << quality_.largestKappa()
+        << ", \"footprint_out_of_lanes_m\": " << quality_.largestExcess()
+        << ", \"axle_out_of_lanes_m\": " << quality_.largestOffset()
         << ", \"no_route_us_median\": " << 1e6 * quantile(&failure_times_, 0.5) << "}";
     return out.str();
   }
@@ -71,13 +79,14 @@ class Measurement {
     try {
       const Route route = router.findRoute(query, CancelToken());
       const double found = now();
-      const Path path = referencePath(*map_, route, VehicleParams(), ReferencePathParams(), 0.0);
+      const ReferencePath path = referencePath(*map_, route, vehicle_, ReferencePathParams(), {});
       const double end = now();
       route_times_.push_back(found - begin);
       distances_.push_back(route.distance);
       metres_ += route.distance;
       for (const RouteStep& step : route.steps) changes_ += step.change_after != LaneChange::kNone;
-      if (path.back().s > 100.0) path_times_per_km_.push_back((end - found) / path.back().s * 1000.0);
+      if (path.path.back().s > 100.0) path_times_per_km_.push_back((end - found) / path.path.back().s * 1000.0);
+      if (quality_.paths() < kPathsLookedAt) quality_.add(path.path, !path.tight.empty());
     } catch (const NoRoute&) {
       failure_times_.push_back(now() - begin);
     }
@@ -105,6 +114,8 @@ class Measurement {
   }
 
   std::shared_ptr<const HdMap> map_;
+  const VehicleParams vehicle_;
+  PathQuality quality_;
   std::vector<LaneIndex> lanes_;
   std::mt19937 random_{1};
   double metres_ = 0.0, changes_ = 0.0, candidates_ = 0.0;

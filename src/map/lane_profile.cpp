@@ -46,8 +46,8 @@ std::optional<double> Lane::heightAt(double s) const {
   return before.z + (after->z - before.z) * (s - before.s) / (after->s - before.s);
 }
 
-double Lane::widthAt(double s) const {
-  return halfWidth(left_widths, left, center, s) + halfWidth(right_widths, right, center, s);
-}
+double Lane::leftWidthAt(double s) const { return halfWidth(left_widths, left, center, s); }
+
+double Lane::rightWidthAt(double s) const { return halfWidth(right_widths, right, center, s); }
 
 }  // namespace external_command

@@ -85,8 +85,11 @@ void MotionFlow::addRoute(const RoutingTask& task, double target_speed, const Ca
   plan->route = router.findRoute(task.query, cancel);
   const double spacing = context_.params().reference_path.spacing;
   context_.params().path_bounds.require(plan->route->distance, plan->route->distance / spacing);
-  plan->path =
-      referencePath(map, *plan->route, context_.params().vehicle, context_.params().reference_path, target_speed);
+  ReferencePath path = referencePath(map, *plan->route, context_.params().vehicle, context_.params().reference_path,
+                                     {target_speed, std::nullopt, cancel});
+  plan->path = std::move(path.path);
+  const std::vector<std::string> tight = describe(map, path.tight, context_.params().vehicle);
+  plan->report.warnings.insert(plan->report.warnings.end(), tight.begin(), tight.end());
   RoutingResponse& response = plan->command.lane_follow_command;
   response = toRoutingResponse(map, *plan->route);
   response.routing_request = requestOf(map, task, *plan->route);

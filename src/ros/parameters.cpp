@@ -236,6 +236,7 @@ ReferencePathParams readReferencePathParams(const ParameterReader& reader) {
   reader.read("path_spacing", &params.spacing);
   reader.read("lane_change_length", &params.lane_change_length);
   reader.read("default_speed_limit", &params.default_speed_limit);
+  reader.read("refuse_undrivable", &params.refuse_undrivable);
   reader.validate(params);
   return params;
 }

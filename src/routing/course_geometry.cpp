@@ -31,15 +31,17 @@ CoursePoint CourseGeometry::Walker::at(double s) {
   const double from = line_->s[next_ - 1], to = line_->s[next_];
   const double share = to > from ? std::clamp((s - from) / (to - from), 0.0, 1.0) : 1.0;
   const Point2d& begin = line_->points[next_ - 1];
-  return {begin + share * (line_->points[next_] - begin), line_->limits[next_]};
+  const LanePoint& end = line_->lanes[next_];
+  const LanePoint lane{end.lane, std::max(0.0, end.s - (1.0 - share) * (to - from))};
+  return {begin + share * (line_->points[next_] - begin), line_->limits[next_], lane, lane};
 }
 
 CourseGeometry::CourseGeometry(const HdMap& map, const Route& route, const VehicleParams& vehicle,
-                               const ReferencePathParams& params)
-    : default_limit_(params.default_speed_limit) {
+                               const ReferencePathParams& params) {
   const std::vector<RouteRow> rows = rowsOf(route);
   for (const RouteRow& row : rows) {
-    lines_.push_back(lineOf(map, row, &row == &rows.front() ? kLead : 0.0, &row == &rows.back() ? kLead : 0.0));
+    lines_.push_back(courseLine(map, row, &row == &rows.front() ? kLead : 0.0, &row == &rows.back() ? kLead : 0.0,
+                                params.default_speed_limit));
   }
   double done = 0.0;  // on the line of the row
   for (std::size_t r = 0; r + 1 < rows.size(); ++r) {
@@ -51,34 +53,6 @@ CourseGeometry::CourseGeometry(const HdMap& map, const Route& route, const Vehic
     addAcross(r, leave, leave + share * (end - leave), done, kFullLock * vehicle.maxKappa());
   }
   addAlong(rows.size() - 1, std::min(done, lines_.back().end), lines_.back().end);
-}
-
-CourseGeometry::Line CourseGeometry::lineOf(const HdMap& map, const RouteRow& row, double lead_in,
-                                            double lead_out) const {
-  std::vector<LaneRange> pieces = row.pieces;
-  lead_in = std::min(lead_in, pieces.front().from_s);
-  lead_out = std::min(lead_out, map.lane(pieces.back().lane).length() - pieces.back().to_s);
-  pieces.front().from_s -= lead_in;
-  pieces.back().to_s += lead_out;
-  Line line;
-  const auto add = [&](const Point2d& point, double limit) {
-    line.s.push_back(line.s.empty() ? -lead_in : line.s.back() + (point - line.points.back()).norm());
-    line.points.push_back(point);
-    line.limits.push_back(limit);
-  };
-  for (const LaneRange& piece : pieces) {
-    const Lane& lane = map.lane(piece.lane);
-    const double limit = lane.speed_limit > 0.0 ? lane.speed_limit : default_limit_;
-    const std::vector<double>& s = lane.center.arcLengths();
-    add(lane.center.pointAt(piece.from_s), limit);
-    for (auto next = std::upper_bound(s.begin(), s.end(), piece.from_s); next != s.end() && *next < piece.to_s;
-         ++next) {
-      add(lane.center.points()[static_cast<std::size_t>(next - s.begin())], limit);
-    }
-    add(lane.center.pointAt(piece.to_s), limit);
-  }
-  line.end = line.s.back() - lead_out;
-  return line;
 }
 
 void CourseGeometry::addAlong(std::size_t line, double from, double to) {
@@ -127,7 +101,8 @@ CoursePoint CourseGeometry::across(const Stretch& stretch, double t, std::vector
   const double share = stretch.in_arcs ? twoArcs(t, stretch.ahead(), stretch.offset) : quintic(t);
   const CoursePoint from = (*walkers)[stretch.line].at(stretch.from + t * (stretch.to - stretch.from));
   const CoursePoint onto = (*walkers)[stretch.line + 1].at(t * stretch.onto_to);
-  return {from.position + share * (onto.position - from.position), std::min(from.speed_limit, onto.speed_limit)};
+  return {from.position + share * (onto.position - from.position), std::min(from.speed_limit, onto.speed_limit),
+          from.lane, onto.lane};
 }
 
 }  // namespace external_command

@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
+#include "course_line.h"
 #include "external_command/routing/reference_path.h"
-#include "route_rows.h"
 
 namespace external_command {
 
@@ -13,6 +13,8 @@ namespace external_command {
 struct CoursePoint {
   Point2d position = Point2d::Zero();
   double speed_limit = 0.0;  ///< [m/s]
+  LanePoint lane;            ///< that it lies on
+  LanePoint onto;            ///< on a lane change: the point abreast, on the lane changed to; else the same as `lane`
 };
 
 /// The line that a route draws on the map: centre lines, and from one to the other on lane changes.
@@ -23,29 +25,21 @@ class CourseGeometry {
   double length() const { return stretches_.back().end; }  ///< [m]
 
   /// How far the first lane goes on before the start, and the last one after the end, at most 5 m [m].
-  double leadIn() const { return -lines_.front().s.front(); }
-  double leadOut() const { return lines_.back().s.back() - lines_.back().end; }
+  double leadIn() const { return lines_.front().leadIn(); }
+  double leadOut() const { return lines_.back().leadOut(); }
 
   /// Places `step` [m] apart: `before` of them ahead of the start, the start, and `after` more.
   std::vector<CoursePoint> sample(double step, std::size_t before, std::size_t after) const;
 
  private:
-  /// A centre line, lanes one after the other, with the distance along it and the limit up to each point.
-  struct Line {
-    std::vector<Point2d> points;
-    std::vector<double> s;
-    std::vector<double> limits;
-    double end = 0.0;  // of the route; the line goes on beyond it
-  };
-
   /// Walks a line in one direction.
   class Walker {
    public:
-    explicit Walker(const Line& line) : line_(&line) {}
+    explicit Walker(const CourseLine& line) : line_(&line) {}
     CoursePoint at(double s);
 
    private:
-    const Line* line_;
+    const CourseLine* line_;
     std::size_t next_ = 1;
   };
 
@@ -64,14 +58,12 @@ class CourseGeometry {
     double ahead() const { return 0.5 * (to - from + onto_to); }
   };
 
-  Line lineOf(const HdMap& map, const RouteRow& row, double lead_in, double lead_out) const;
   void addAlong(std::size_t line, double from, double to);
   void addAcross(std::size_t line, double from, double to, double onto_to, double max_kappa);
   CoursePoint across(const Stretch& stretch, double t, std::vector<Walker>* walkers) const;
   std::vector<Walker> walkers() const { return {lines_.begin(), lines_.end()}; }
 
-  double default_limit_;
-  std::vector<Line> lines_;
+  std::vector<CourseLine> lines_;
   std::vector<Stretch> stretches_;
 };
 

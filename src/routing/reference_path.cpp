@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
-#include "course_geometry.h"
+#include "bend_relief.h"
 #include "external_command/core/text.h"
 #include "smoothing.h"
 
@@ -17,6 +18,9 @@ namespace {
 constexpr double kSmoothingLength = 1.2;  // [m]
 constexpr double kPoint = 1e-3;           // [m]; a shorter route is one point
 constexpr double kMaxLead = 100.0;        // samples beyond the ends
+constexpr double kSlowest = 1.0;          // that the steering slows the vehicle down to [m/s]
+constexpr std::size_t kMostTexts = 20;
+constexpr double kTolerance = 1.02;  // of the sampled curvature
 
 void requireWithin(const char* key, double value, double low, double high) {
   if (value >= low && value <= high) return;  // false for NaN
@@ -60,6 +64,47 @@ Path pathThrough(const std::vector<Point2d>& points, std::size_t first, std::siz
   return path;
 }
 
+/// What the steering can follow at `speed` [m/s] bounds the change of curvature per metre, and the other way round.
+double steeringSpeed(const VehicleParams& vehicle, const ReferencePoint& from, const ReferencePoint& to) {
+  const double turned = std::abs(std::atan(vehicle.wheelbase * to.kappa) - std::atan(vehicle.wheelbase * from.kappa));
+  return std::max(kSlowest, vehicle.max_steering_rate * (to.s - from.s) / std::max(turned, 1e-9));
+}
+
+void capSpeeds(const std::vector<CoursePoint>& course, const CourseLayout& layout, const VehicleParams& vehicle,
+               double target_speed, Path* path) {
+  for (std::size_t i = 0; i < path->size(); ++i) {
+    ReferencePoint& point = (*path)[i];
+    point.speed = course[layout.places[layout.first + i]].speed_limit;
+    if (target_speed > 0.0) point.speed = std::min(point.speed, target_speed);
+    if (i == 0) continue;
+    ReferencePoint& before = (*path)[i - 1];
+    const double speed = steeringSpeed(vehicle, before, point);
+    before.speed = std::min(before.speed, speed);
+    point.speed = std::min(point.speed, speed);
+  }
+}
+
+/// The stretches above the vehicle's curvature.
+std::vector<TightLane> tightLanes(const std::vector<CoursePoint>& course, const CourseLayout& layout, double max_kappa,
+                                  const Path& path) {
+  std::vector<TightLane> tight;
+  double worst = 0.0;  // on the present stretch
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const double kappa = std::abs(path[i].kappa);
+    if (kappa <= max_kappa * kTolerance) {
+      worst = 0.0;
+      continue;
+    }
+    if (worst == 0.0) tight.emplace_back();
+    if (kappa > worst) {
+      const LaneIndex lane = course[layout.places[layout.first + i]].lane.lane;
+      tight.back() = {lane, path[i].pose().position(), 1.0 / kappa};
+    }
+    worst = std::max(worst, kappa);
+  }
+  return tight;
+}
+
 }  // namespace
 
 void ReferencePathParams::validate() const {
@@ -68,27 +113,51 @@ void ReferencePathParams::validate() const {
   requireWithin("default_speed_limit", default_speed_limit, 0.1, 100.0);
 }
 
-Path referencePath(const HdMap& map, const Route& route, const VehicleParams& vehicle,
-                   const ReferencePathParams& params, double target_speed) {
+ReferencePath referencePath(const HdMap& map, const Route& route, const VehicleParams& vehicle,
+                            const ReferencePathParams& params, const ReferencePathQuery& query) {
   const CourseGeometry geometry(map, route, vehicle, params);
-  if (geometry.length() < kPoint) return standingPath(map, route);
+  query.cancel.throwIfCancelled();
+  if (geometry.length() < kPoint) return {standingPath(map, route), {}};
   const auto intervals =
       static_cast<std::size_t>(std::max(2.0, std::ceil(geometry.length() / params.spacing - kPoint)));
   const double step = geometry.length() / static_cast<double>(intervals);
   const auto before = static_cast<std::size_t>(std::min(geometry.leadIn() / step, kMaxLead));
   const auto after = static_cast<std::size_t>(std::min(geometry.leadOut() / step, kMaxLead));
   const std::vector<CoursePoint> course = geometry.sample(step, before, intervals + after);
-  std::vector<Point2d> points;
-  points.reserve(course.size());
-  for (const CoursePoint& point : course) points.push_back(point.position);
-  smooth(kSmoothingLength / step, before, before + intervals, &points);
+  query.cancel.throwIfCancelled();
 
-  Path path = pathThrough(points, before, before + intervals);
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    path[i].speed = course[before + i].speed_limit;
-    if (target_speed > 0.0) path[i].speed = std::min(path[i].speed, target_speed);
+  CourseLayout layout;
+  layout.first = before;
+  layout.last = before + intervals;
+  std::vector<Point2d> wished;
+  wished.reserve(course.size());
+  for (const CoursePoint& point : course) wished.push_back(point.position);
+  layout.points = wished;
+  layout.places.resize(course.size());
+  std::iota(layout.places.begin(), layout.places.end(), 0);
+  smooth(kSmoothingLength / step, layout.first, layout.last, &layout.points);
+  BendRelief(map, vehicle, step, course, wished).apply(query.cancel, &layout);
+
+  ReferencePath result;
+  result.path = pathThrough(layout.points, layout.first, layout.last);
+  capSpeeds(course, layout, vehicle, query.target_speed, &result.path);
+  result.tight = tightLanes(course, layout, vehicle.maxKappa(), result.path);
+  if (params.refuse_undrivable && !result.tight.empty()) {
+    throw NoPath(describe(map, result.tight, vehicle).front() +
+                 "; such paths are refused (~routing/refuse_undrivable)");
   }
-  return path;
+  return result;
+}
+
+std::vector<std::string> describe(const HdMap& map, const std::vector<TightLane>& tight, const VehicleParams& vehicle) {
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < std::min(tight.size(), kMostTexts); ++i) {
+    texts.push_back(text("lane ", map.lane(tight[i].lane).id, " leaves no room for more than a radius of ",
+                         metres(tight[i].radius), " at ", at(tight[i].position), "; the vehicle needs ",
+                         metres(vehicle.min_turning_radius), " (~vehicle/min_turning_radius)"));
+  }
+  if (tight.size() > kMostTexts) texts.push_back(text(tight.size() - kMostTexts, " more lanes bend too tightly"));
+  return texts;
 }
 
 }  // namespace external_command

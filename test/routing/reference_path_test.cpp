@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <random>
 
+#include "external_command/core/text.h"
+
 #include "support/routing_world.h"
 
 namespace external_command {
@@ -21,7 +23,7 @@ class ReferencePathWorld : public RoutingWorld {
   /// A path of the map as it is, checked against the route.
   Path path(const Place& start, const Place& goal, double target_speed = 0.0) {
     const Route route = drive(start, goal);
-    Path path = referencePath(map(), route, vehicle, path_params, target_speed);
+    Path path = referencePath(map(), route, vehicle, path_params, {target_speed}).path;
     limitSpeeds(vehicle, &path);
     EXPECT_TRUE(isContinuous(path, 1.1 * path_params.spacing));
     const Lane &first = map().lane(laneIndex(map(), start.lane)), &last = map().lane(laneIndex(map(), goal.lane));
@@ -209,7 +211,7 @@ TEST_F(TwoLaneRoad, CanBeSteeredWhereAChangeHasNoMoreRoomThanTwoArcsNeed) {
 
 TEST_F(TwoLaneRoad, GoesThereAndBackAroundABlock) {
   const Route route = drive({"r1", 0}, {}, {"r2", 60}, {{"r1", 50, 60}, {"r2", 0, 10}});
-  Path detour = referencePath(map(), route, vehicle, path_params, 0.0);
+  Path detour = referencePath(map(), route, vehicle, path_params, {}).path;
   limitSpeeds(vehicle, &detour);
   EXPECT_TRUE(isContinuous(detour, 0.55));
   for (const ReferencePoint& point : detour) {
@@ -217,6 +219,107 @@ TEST_F(TwoLaneRoad, GoesThereAndBackAroundABlock) {
       EXPECT_NEAR(point.y, kWidth, 0.02);
     }
   }
+}
+
+/// What a driver expects of any path: it goes on without a jump, and turns within the vehicle's limit.
+class CoarseJunction : public ReferencePathWorld {
+ protected:
+  ReferencePath along(const Place& start, const Place& goal) {
+    const Route route = drive(start, goal);
+    ReferencePath found = referencePath(map(), route, vehicle, path_params, {});
+    limitSpeeds(vehicle, &found.path);
+    if (found.tight.empty()) {
+      EXPECT_TRUE(isContinuous(found.path, 1.2 * path_params.spacing));
+    }
+    return found;
+  }
+
+  void expectDrivable(const ReferencePath& found) const {
+    EXPECT_TRUE(found.tight.empty());
+    EXPECT_LT(largestKappa(found.path), 1.02 * vehicle.maxKappa());
+  }
+};
+
+///   b          a corner of 90 degrees, drawn with no point between
+///   |
+///   +---- a
+TEST_F(CoarseJunction, IsDrivenRoundWithinTheLanes) {
+  builder.lane("a", {{0, 0}, {60, 0}}).lane("b", {{60, 0}, {60, 60}}).follow({"a", "b"});
+  const ReferencePath found = along({"a", 0}, {"b", 60});
+  expectDrivable(found);
+  for (const ReferencePoint& point : found.path) {
+    const Point2d position = point.pose().position();
+    const double beside = std::min(std::abs(position.y()), std::abs(position.x() - 60.0));
+    EXPECT_LT(beside, 1.5 * (kWidth / 2.0 - vehicle.width / 2.0)) << at(position) << ", farther only across the corner";
+  }
+}
+
+TEST_F(CoarseJunction, IsDrivenByALongVehicleOnTheNeighbourLaneWhereItMust) {
+  builder.lane("a", {{0, 0}, {60, 0}}).arc("turn", {60, 0, 0}, 9.0, -M_PI / 2).lane("b", {{69, -9}, {69, -69}});
+  builder.lane("a2", {{0, kWidth}, {60, kWidth}}).beside({"a2", "a"});
+  builder.lane("b2", {{69 + kWidth, -9}, {69 + kWidth, -69}}).beside({"b2", "b"}).follow({"a", "turn", "b"});
+  vehicle.wheelbase = 6.0;
+  vehicle.front_overhang = 2.5;
+  vehicle.min_turning_radius = 8.0;
+  vehicle.width = 2.5;
+  const ReferencePath found = along({"a", 0}, {"b", 60});
+  expectDrivable(found);
+  double left = 0.0;
+  for (const ReferencePoint& point : found.path) left = std::max(left, point.x < 60.0 ? point.y : point.x - 69.0);
+  EXPECT_GT(left, kWidth / 2.0 - vehicle.width / 2.0) << "it swings out";
+  EXPECT_LT(left, 1.5 * kWidth - vehicle.width / 2.0) << "no farther than the neighbour lane";
+}
+
+TEST_F(CoarseJunction, IsDrivenThroughWhereLinkedLanesLieApart) {
+  for (const double ahead : {-3.0, -1.0, 0.0, 1.0, 3.0}) {
+    for (const double beside : {-1.5, -0.5, 0.0, 1.0}) {
+      SCOPED_TRACE(testing::Message() << ahead << " m ahead, " << beside << " m to the left");
+      builder = {};
+      builder.lane("a", {0, 0}, {50, 0}).lane("b", {50 + ahead, beside}, {100, beside}).follow({"a", "b"});
+      const ReferencePath found = along({"a", 5}, {"b", 45});
+      expectDrivable(found);
+      for (std::size_t i = 1; i < found.path.size(); ++i) EXPECT_GT(found.path[i].x, found.path[i - 1].x);
+      for (const ReferencePoint& point : found.path) EXPECT_LT(std::abs(point.heading), 0.5);
+    }
+  }
+}
+
+TEST_F(CoarseJunction, IsDrivenStraightOnWhereALaneFoldsBackOnItself) {
+  for (const double back : {0.02, 0.5, 2.0, 5.0}) {
+    SCOPED_TRACE(back);
+    builder = {};
+    builder.lane("a", {{0, 0}, {30, 0}, {30 - 0.5 * back, 0}, {30 - back, 0}, {30.1, 0}, {60, 0}});
+    const double length = builder.build()->lanes()[0].length();
+    const ReferencePath found = along({"a", 5}, {"a", length - 5.0});
+    expectDrivable(found);
+    EXPECT_NEAR(found.path.back().s, 50.0, 0.1);
+    EXPECT_LT(largestKappa(found.path), 0.01);
+  }
+}
+
+///   ------+
+///         |  2 m: no vehicle turns here
+///   ------+
+TEST_F(CoarseJunction, SaysSoWhereTheVehicleCannotTurn) {
+  builder.lane("there", {0, 0}, {50, 0}).arc("turn", {50, 0, 0}, 1.0, M_PI).lane("back", {50, 2}, {0, 2});
+  builder.follow({"there", "turn", "back"});
+  const ReferencePath found = along({"there", 0}, {"back", 50});
+  ASSERT_FALSE(found.tight.empty());
+  EXPECT_LT(found.tight[0].radius, 3.0);
+  const std::string told = describe(map(), found.tight, vehicle).front();
+  EXPECT_NE(told.find("lane turn leaves no room for more than a radius of "), std::string::npos) << told;
+  EXPECT_NE(told.find("the vehicle needs 5.00 m (~vehicle/min_turning_radius)"), std::string::npos) << told;
+  path_params.refuse_undrivable = true;
+  const Route route = drive({"there", 0}, {"back", 50});
+  EXPECT_THAT_REFUSED(referencePath(map(), route, vehicle, path_params, {}), NoPath, "refuse_undrivable");
+}
+
+TEST_F(CoarseJunction, CanBeCancelled) {
+  builder.lane("a", {0, 0}, {200, 0});
+  const Route route = drive({"a", 0}, {"a", 200});
+  const CancelSource source;
+  source.cancel();
+  EXPECT_THROW(referencePath(map(), route, vehicle, path_params, {0.0, std::nullopt, source.token()}), Cancelled);
 }
 
 ///   a ring of four quarter circles of 15 m
@@ -231,7 +334,7 @@ TEST(ReferencePath, DrivesALoop) {
   const auto map = builder.build();
   const Router router(map, {});
   const Route route = router.findRoute({{{0, 10.0}}, {}, {{0, 9.0}}, {}}, CancelToken());
-  Path path = referencePath(*map, route, VehicleParams(), ReferencePathParams(), 0.0);
+  Path path = referencePath(*map, route, VehicleParams(), ReferencePathParams(), {}).path;
   limitSpeeds(VehicleParams(), &path);
   EXPECT_TRUE(isContinuous(path, 0.55));
   EXPECT_NEAR(path.back().s, 2.0 * M_PI * 15.0 - 1.0, 0.2);

@@ -51,8 +51,10 @@ struct Lane {
   /// City driving, or shared with it: what a route may use.
   bool isDrivable() const { return type == LaneType::kCityDriving || type == LaneType::kShared; }
 
-  /// Full width [m] at `s`, from the samples, else from the boundaries, else 3.5 m.
-  double widthAt(double s) const;
+  /// From the centre line to the boundary at that side [m] at `s`, by the samples, else by the boundaries, else 1.75 m.
+  double leftWidthAt(double s) const;
+  double rightWidthAt(double s) const;
+  double widthAt(double s) const { return leftWidthAt(s) + rightWidthAt(s); }
 
   /// Height of the centre line [m]; nullopt where the map gives none.
   std::optional<double> heightAt(double s) const;

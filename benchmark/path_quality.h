@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "external_command/core/path.h"
+#include "external_command/core/vehicle.h"
+#include "external_command/map/hd_map.h"
+
+namespace external_command {
+
+/// How well the paths of a map can be driven. Measured from the positions of the points alone, not from what they
+/// state.
+class PathQuality {
+ public:
+  PathQuality(const HdMap& map, const VehicleParams& vehicle) : map_(map), vehicle_(vehicle) {}
+
+  /// @param told  whether the path is known to bend more than the vehicle can.
+  void add(const Path& path, bool told);
+
+  std::size_t paths() const { return paths_; }
+  double shareOverLimit() const;                          ///< of paths with a curvature above the vehicle's
+  double shareUntold() const;                             ///< of paths with one that nobody was told of
+  double largestKappa() const { return largest_kappa_; }  ///< [1/m]
+
+  /// By which a corner of the footprint leaves every lane that runs along there, at most [m].
+  double largestExcess() const { return largest_excess_; }
+
+  /// The same of the reference point.
+  double largestOffset() const { return largest_offset_; }
+
+ private:
+  double excessAt(const Point2d& point, double heading) const;
+
+  const HdMap& map_;
+  const VehicleParams& vehicle_;
+  std::size_t paths_ = 0, over_limit_ = 0, untold_ = 0;
+  double largest_kappa_ = 0.0, largest_excess_ = 0.0, largest_offset_ = 0.0;
+};
+
+}  // namespace external_command
