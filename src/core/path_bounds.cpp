@@ -17,6 +17,10 @@ void PathBounds::validate() const {
   if (!(max_length >= 1.0 && max_length <= kLongest)) {
     throw InvalidParameter(text("max_path_length is ", max_length, "; it must lie in [1, ", kLongest, "]"));
   }
+  if (!(max_start_distance >= 0.0 && max_start_distance <= kLongest)) {
+    throw InvalidParameter(
+        text("max_path_start_distance is ", max_start_distance, "; it must lie in [0, ", kLongest, "]"));
+  }
   if (max_points < 2 || max_points > kMostPoints) {
     throw InvalidParameter(text("max_path_points is ", max_points, "; it must lie in [2, ", kMostPoints, "]"));
   }

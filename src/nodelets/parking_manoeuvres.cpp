@@ -33,14 +33,6 @@ Point2d middleOf(const Polygon& polygon) {
   return polygon.points()[0] + sum / static_cast<double>(polygon.points().size());
 }
 
-const Polygon* placeOf(const HdMap& map, const Point2d& point) {
-  for (const ParkingSpace& space : map.parkingSpaces()) {
-    if (space.polygon.contains(point)) return &space.polygon;
-  }
-  const Area* area = map.areaAt(point);
-  return area != nullptr ? &area->polygon : nullptr;
-}
-
 Point2d middleOf(const VehicleParams& vehicle, const Pose2d& pose) {
   return pose.position() + (vehicle.length() / 2.0 - vehicle.rear_overhang) * unitVector(pose.heading);
 }
@@ -50,6 +42,49 @@ std::size_t indexAt(const Path& path, double s) {
   const auto after = std::lower_bound(path.begin(), path.end(), s,
                                       [](const ReferencePoint& point, double wanted) { return point.s < wanted; });
   return after == path.end() ? path.size() - 1 : static_cast<std::size_t>(after - path.begin());
+}
+
+constexpr double kRoomAround = 0.5;  // that a vehicle is taken to have where nothing is known of the place [m]
+
+/// What the vehicle may stand in, to be tried in turn: a parking space, an area, else the ground under it.
+std::vector<Polygon> placesOf(const HdMap& map, const VehicleParams& vehicle, double margin, const Pose2d& pose) {
+  const Point2d middle = middleOf(vehicle, pose);
+  std::vector<Polygon> places;
+  for (const ParkingSpace& space : map.parkingSpaces()) {
+    if (places.empty() && space.polygon.contains(middle)) places.push_back(placeFor(space, vehicle, margin, pose));
+  }
+  if (const Area* area = map.areaAt(middle)) places.push_back(area->polygon);
+  if (!places.empty()) return places;
+  const auto ground = footprintAt(vehicle, pose, kRoomAround);
+  return {Polygon({ground.begin(), ground.end()}, "the ground under the vehicle")};
+}
+
+/// Poses on the path at which a manoeuvre may get onto it, and their indices.
+struct Joints {
+  std::vector<Pose2d> poses;
+  std::vector<std::size_t> indices;
+};
+
+Joints jointsOf(const Path& path) {
+  Joints joints;
+  for (const double after : kJoiningPoints) {
+    if (after > path.back().s && !joints.poses.empty()) break;
+    joints.indices.push_back(indexAt(path, after));
+    joints.poses.push_back(path[joints.indices.back()].pose());
+  }
+  return joints;
+}
+
+/// For a path that does not begin at the vehicle: a warning, or a refusal where that is too far away.
+void tellStart(const ProcessContext& context, const Pose2d& vehicle, const std::string& why, MotionPlan* plan) {
+  const Point2d begin = plan->path.front().pose().position();
+  const double distance = (begin - vehicle.position()).norm(), limit = context.params().path_bounds.max_start_distance;
+  const std::string what = text("the path begins on the lane at ", at(begin), ", ", metres(distance),
+                                " from the vehicle: no manoeuvre leads there (", why, ")");
+  if (limit > 0.0 && distance > limit) {
+    throw NoPath(text(what, "; the limit is ", metres(limit), " (~routing/max_path_start_distance)"));
+  }
+  plan->report.warnings.push_back(what);
 }
 
 }  // namespace
@@ -154,29 +189,27 @@ void leaveParkingPlace(const ProcessContext& context, const Pose2d& vehicle, con
                        const CancelToken& cancel, MotionPlan* plan) {
   const HdMap& map = context.requireRouter().map();
   if (!LaneWayTool(map, context.params().lane_way).isOffLane(vehicle)) return;
-  const Polygon* place = placeOf(map, middleOf(context.params().vehicle, vehicle));
-  if (place == nullptr) return;
-  std::vector<Pose2d> goals;
-  std::vector<std::size_t> indices;
-  for (const double after : kJoiningPoints) {
-    if (after > plan->path.back().s && !goals.empty()) break;
-    indices.push_back(indexAt(plan->path, after));
-    goals.push_back(plan->path[indices.back()].pose());
+  const double margin = planner.params().margin;
+  std::string why;
+  for (const Polygon& place : placesOf(map, context.params().vehicle, margin, vehicle)) {
+    try {
+      const Region region = planner.regionOf(surfaceWith(map, place, plan->path.front().pose()));
+      const Joints joints = jointsOf(plan->path);
+      const FreeSpaceResult out = planner.plan(vehicle, joints.poses, region, 0.5, cancel, plan->scene);
+      const auto joint = static_cast<std::ptrdiff_t>(joints.indices[out.goal_index]);
+      const Path rest(plan->path.begin() + joint, plan->path.end());
+      plan->path.clear();
+      appendManoeuvre(out, plan);
+      plan->path = join(plan->path, rest);
+      plan->scene.start = vehicle;
+      return;
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const Error& error) {
+      why += text(why.empty() ? "" : "; ", error.what());
+    }
   }
-  try {
-    const Region region = planner.regionOf(surfaceWith(map, *place, plan->path.front().pose()));
-    const FreeSpaceResult out = planner.plan(vehicle, goals, region, 0.5, cancel, plan->scene);
-    const Path rest(plan->path.begin() + static_cast<std::ptrdiff_t>(indices[out.goal_index]), plan->path.end());
-    plan->path.clear();
-    appendManoeuvre(out, plan);
-    plan->path = join(plan->path, rest);
-    plan->scene.start = vehicle;
-  } catch (const Cancelled&) {
-    throw;
-  } catch (const Error& error) {
-    plan->report.warnings.push_back(
-        text("the path begins on the lane, not at the vehicle: no manoeuvre leads there (", error.what(), ")"));
-  }
+  tellStart(context, vehicle, why, plan);
 }
 
 }  // namespace external_command

@@ -32,9 +32,10 @@ Region::Parts surfaceWith(const HdMap& map, const Polygon& core, const Pose2d& o
 void leaveRouteFor(const std::vector<Pose2d>& goals, const Region& region, const ManoeuvrePlanner& planner,
                    const CancelToken& cancel, MotionPlan* plan);
 
-/// Where the vehicle stands off the lanes in a parking space or an area, the path begins with a manoeuvre from there
-/// onto the route; where none is found the path begins on the lane, with a warning.
+/// Where the vehicle stands off the lanes, in a parking space, an area or elsewhere, the path begins with a manoeuvre
+/// from there onto the route; where none is found the path begins on the lane, with a warning that tells the distance.
 /// @throws Cancelled
+/// @throws NoPath  it would begin farther away than `routing/max_path_start_distance`.
 void leaveParkingPlace(const ProcessContext& context, const Pose2d& vehicle, const ManoeuvrePlanner& planner,
                        const CancelToken& cancel, MotionPlan* plan);
 

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "area_access.h"
 #include "external_command/core/text.h"
 #include "external_command/free_space/collision_checker.h"
+#include "external_command/routing/area_access.h"
 
 namespace external_command {
 

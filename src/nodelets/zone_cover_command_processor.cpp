@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "area_access.h"
 #include "external_command/core/text.h"
 #include "external_command/map/near_ids.h"
+#include "external_command/routing/area_access.h"
 #include "zone_entry.h"
 #include "zone_resume.h"
 

@@ -78,6 +78,13 @@ MotionFlow::MotionFlow(ProcessContext& context, const std::vector<std::string>& 
   publishers_.path = context.advertise<nav_msgs::Path>(context.params().path_topic, true);
 }
 
+/// Off the lanes the path begins on one, until the way there is planned.
+std::optional<Pose2d> MotionFlow::startOnLane(const RoutingTask& task) const {
+  if (!task.vehicle) return std::nullopt;
+  const LaneWayTool tool(context_.requireRouter().map(), context_.params().lane_way);
+  return tool.isOffLane(*task.vehicle) ? std::nullopt : task.vehicle;
+}
+
 void MotionFlow::addRoute(const RoutingTask& task, double target_speed, const CancelToken& cancel,
                           MotionPlan* plan) const {
   const Router& router = context_.requireRouter();
@@ -86,7 +93,7 @@ void MotionFlow::addRoute(const RoutingTask& task, double target_speed, const Ca
   const double spacing = context_.params().reference_path.spacing;
   context_.params().path_bounds.require(plan->route->distance, plan->route->distance / spacing);
   ReferencePath path = referencePath(map, *plan->route, context_.params().vehicle, context_.params().reference_path,
-                                     {target_speed, std::nullopt, cancel});
+                                     {target_speed, startOnLane(task), cancel});
   plan->path = std::move(path.path);
   const std::vector<std::string> tight = describe(map, path.tight, context_.params().vehicle);
   plan->report.warnings.insert(plan->report.warnings.end(), tight.begin(), tight.end());

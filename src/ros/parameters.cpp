@@ -226,6 +226,7 @@ LaneWayParams readLaneWayParams(const ParameterReader& reader) {
   reader.read("off_lane_distance", &params.off_lane_distance);
   reader.read("off_lane_heading", &params.off_lane_heading);
   reader.read("park_and_go_radius", &params.park_and_go_radius);
+  reader.read("area_access_distance", &params.area_access_distance);
   reader.read("parking_lane_radius", &params.parking_lane_radius);
   reader.validate(params);
   return params;
@@ -245,6 +246,7 @@ PathBounds readPathBounds(const ParameterReader& reader) {
   PathBounds bounds;
   int max_points = static_cast<int>(bounds.max_points);
   reader.read("max_path_length", &bounds.max_length);
+  reader.read("max_path_start_distance", &bounds.max_start_distance);
   reader.readWithin("max_path_points", 2, 10000000, &max_points);
   bounds.max_points = static_cast<std::size_t>(max_points);
   reader.validate(bounds);

@@ -42,8 +42,9 @@ RoutingTask beginRoutingTask(const ProcessContext& context, const PlanStart& veh
   task.request.header.stamp = ros::Time::now();
   task.request.is_start_pose_set = is_start_pose_set;
   if (!is_start_pose_set) {
+    task.vehicle = vehicle.pose();
     task.query.starts =
-        LaneWayTool(map, context.params().lane_way).fromVehicle(vehicle.pose(), context.vehiclePose().height());
+        LaneWayTool(map, context.params().lane_way).fromVehicle(*task.vehicle, context.vehiclePose().height());
     task.request.waypoint.push_back(toMsg(map, task.query.starts.front()));
   }
   for (std::size_t i = 0; i < way_points.size(); ++i) {

@@ -15,6 +15,8 @@ constexpr double kMargin = 15.0;        // on either side of a hard place, in wh
 constexpr double kBaseScale = 3.0;      // over which the line that offsets are measured from is smoothed [m]
 constexpr std::size_t kHeld = 3;        // points at either end of a window that stay
 constexpr std::size_t kRamp = 8;        // points over which the smoother line takes the place of the path there
+constexpr double kMerging = 0.05;       // off the course, where the path has yet to get onto it [m]
+constexpr double kMergingRoom = 0.5;    // beyond its limits that it may take there [m]
 constexpr double kNearLimit = 0.97;     // share of the vehicle's curvature that is aimed at
 constexpr double kCrawl = 2.0;          // at which the wheels can be turned as fast as the path asks [m/s]
 constexpr double kNoticeable = 0.3;     // by which the front swings out before it is looked at [m]
@@ -134,8 +136,10 @@ std::vector<Point2d> BendRelief::fitted(const CourseLayout& layout, const Window
     corridor_.limit(course_[place], &fit[i]);
     fit[i].wished_low = std::min(fit[i].wished_low, fit[i].center);
     fit[i].wished_high = std::max(fit[i].wished_high, fit[i].center);
-    fit[i].low = std::min(fit[i].low, fit[i].wished_low);
-    fit[i].high = std::max(fit[i].high, fit[i].wished_high);
+    // A vehicle that stands beside the lane needs some room to get back into it.
+    const double room = (wished_[place] - course_[place].position).norm() > kMerging ? kMergingRoom : 0.0;
+    fit[i].low = std::min(fit[i].low, fit[i].wished_low - room);
+    fit[i].high = std::max(fit[i].high, fit[i].wished_high + room);
     const bool is_before = window.begin > layout.first ? i < kHeld : index < layout.first;
     const bool is_beyond = window.end < layout.last ? i + kHeld >= base.size() : index > layout.last;
     const bool is_end = index == layout.first || index == layout.last;

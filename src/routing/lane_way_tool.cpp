@@ -8,6 +8,7 @@
 
 #include "external_command/core/text.h"
 #include "external_command/map/near_ids.h"
+#include "external_command/routing/area_access.h"
 
 namespace external_command {
 
@@ -63,6 +64,7 @@ void LaneWayParams::validate() const {
   requireWithin("off_lane_distance", off_lane_distance, 0.0, 1000.0);
   requireWithin("off_lane_heading", off_lane_heading, 0.0, M_PI);
   requireWithin("park_and_go_radius", park_and_go_radius, 0.01, 1000.0);
+  requireWithin("area_access_distance", area_access_distance, 0.0, 1000.0);
   requireWithin("parking_lane_radius", parking_lane_radius, 0.01, 1000.0);
 }
 
@@ -145,9 +147,23 @@ bool LaneWayTool::isOffLane(const Pose2d& vehicle) const {
   return !map_.nearestLane(vehicle.position(), ownLanes(vehicle));
 }
 
+/// Where lanes give access to the area around `point`; none where it lies in none, or no lane does.
+std::vector<LanePoint> LaneWayTool::fromArea(const Point2d& point) const {
+  const Area* area = map_.areaAt(point);
+  if (area == nullptr) return {};
+  try {
+    std::vector<LanePoint> points = accessPoints(map_, *area, params_.area_access_distance);
+    for (LanePoint& access : points) access.price = (map_.lane(access.lane).center.pointAt(access.s) - point).norm();
+    return points;
+  } catch (const OffMap&) {
+    return {};
+  }
+}
+
 std::vector<LanePoint> LaneWayTool::fromVehicle(const Pose2d& vehicle, const std::optional<double>& height) const {
   if (!vehicle.isFinite()) throw InvalidRequest("the vehicle's pose is not finite");
   std::vector<LanePoint> points = candidates(vehicle.position(), ownLanes(vehicle), height);
+  if (points.empty()) points = fromArea(vehicle.position());
   if (points.empty()) points = within(vehicle.position(), params_.park_and_go_radius);
   if (!points.empty()) return points;
   const auto nearest = map_.nearestLane(vehicle.position(), {});

@@ -8,6 +8,7 @@
 #include "bend_relief.h"
 #include "external_command/core/text.h"
 #include "smoothing.h"
+#include "start_merge.h"
 
 namespace external_command {
 
@@ -15,10 +16,11 @@ namespace {
 
 /// Kinks of the centre lines are rounded, and noise is taken out, over about this length. The path then stays within
 /// 4 cm of a line that is sampled at 0.1 rad per point.
-constexpr double kSmoothingLength = 1.2;  // [m]
-constexpr double kPoint = 1e-3;           // [m]; a shorter route is one point
-constexpr double kMaxLead = 100.0;        // samples beyond the ends
-constexpr double kSlowest = 1.0;          // that the steering slows the vehicle down to [m/s]
+constexpr double kSmoothingLength = 1.2;   // [m]
+constexpr double kPoint = 1e-3;            // [m]; a shorter route is one point
+constexpr double kMaxLead = 100.0;         // samples beyond the ends
+constexpr double kSlowest = 1.0;           // that the steering slows the vehicle down to [m/s]
+constexpr std::size_t kBehindVehicle = 3;  // samples, that hold its heading
 constexpr std::size_t kMostTexts = 20;
 constexpr double kTolerance = 1.02;  // of the sampled curvature
 
@@ -27,9 +29,14 @@ void requireWithin(const char* key, double value, double low, double high) {
   throw InvalidParameter(text(key, " is ", value, "; it must lie in [", low, ", ", high, "]"));
 }
 
-/// The route is as good as a point: the path stands there, in the lane's direction.
-Path standingPath(const HdMap& map, const Route& route) {
+/// The route is as good as a point: the path stands there, in the lane's direction, or where the vehicle is.
+Path standingPath(const HdMap& map, const Route& route, const std::optional<Pose2d>& start) {
   Path path;
+  if (start) {
+    path.push_back({start->x, start->y, start->heading});
+    path.push_back(path.front());
+    return path;
+  }
   for (const auto& [lane, s] : {std::pair(route.steps.front().lane, route.steps.front().from_s),
                                 std::pair(route.steps.back().lane, route.steps.back().to_s)}) {
     const Pose2d pose = map.lane(lane).center.poseAt(s);
@@ -117,11 +124,12 @@ ReferencePath referencePath(const HdMap& map, const Route& route, const VehicleP
                             const ReferencePathParams& params, const ReferencePathQuery& query) {
   const CourseGeometry geometry(map, route, vehicle, params);
   query.cancel.throwIfCancelled();
-  if (geometry.length() < kPoint) return {standingPath(map, route), {}};
+  if (geometry.length() < kPoint) return {standingPath(map, route, query.start), {}};
   const auto intervals =
       static_cast<std::size_t>(std::max(2.0, std::ceil(geometry.length() / params.spacing - kPoint)));
   const double step = geometry.length() / static_cast<double>(intervals);
-  const auto before = static_cast<std::size_t>(std::min(geometry.leadIn() / step, kMaxLead));
+  const auto lead_in = static_cast<std::size_t>(std::min(geometry.leadIn() / step, kMaxLead));
+  const std::size_t before = query.start ? kBehindVehicle : lead_in;
   const auto after = static_cast<std::size_t>(std::min(geometry.leadOut() / step, kMaxLead));
   const std::vector<CoursePoint> course = geometry.sample(step, before, intervals + after);
   query.cancel.throwIfCancelled();
@@ -132,6 +140,8 @@ ReferencePath referencePath(const HdMap& map, const Route& route, const VehicleP
   std::vector<Point2d> wished;
   wished.reserve(course.size());
   for (const CoursePoint& point : course) wished.push_back(point.position);
+  layout.starts_at_pose = query.start && isBeside(*query.start, wished, layout.first);
+  if (query.start) mergeFrom(*query.start, layout.first, layout.last, step, vehicle.maxKappa(), &wished);
   layout.points = wished;
   layout.places.resize(course.size());
   std::iota(layout.places.begin(), layout.places.end(), 0);
@@ -140,6 +150,7 @@ ReferencePath referencePath(const HdMap& map, const Route& route, const VehicleP
 
   ReferencePath result;
   result.path = pathThrough(layout.points, layout.first, layout.last);
+  if (layout.starts_at_pose) result.path.front().heading = query.start->heading;
   capSpeeds(course, layout, vehicle, query.target_speed, &result.path);
   result.tight = tightLanes(course, layout, vehicle.maxKappa(), result.path);
   if (params.refuse_undrivable && !result.tight.empty()) {

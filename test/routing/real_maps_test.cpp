@@ -9,6 +9,7 @@
 
 #include "external_command/map/map_reader.h"
 #include "external_command/routing/reference_path.h"
+#include "support/command_path_matcher.h"
 #include "support/reference_dijkstra.h"
 #include "support/route_matchers.h"
 
@@ -194,9 +195,12 @@ TEST_P(RealMapRoutes, HavePathsThatCanBeDriven) {
     SCOPED_TRACE(described(query));
     const auto found = route(router, query);
     if (!found) continue;
-    Path path = referencePath(*map_, *found, VehicleParams(), params, {}).path;
+    ReferencePath reference = referencePath(*map_, *found, VehicleParams(), params, {});
+    Path& path = reference.path;
     limitSpeeds(VehicleParams(), &path);
-    EXPECT_TRUE(isContinuous(path, 1.2 * params.spacing));
+    CommandPathLimits limits;
+    limits.curvature = reference.tight.empty();
+    EXPECT_TRUE(isDrivableCommandPath(path, VehicleParams(), std::nullopt, limits));
     EXPECT_TRUE(staysNear(path, *found, *map_, hasChanges(*found) ? 2.5 : 1.1));
     const Point2d start = map_->lane(query.starts[0].lane).center.pointAt(query.starts[0].s);
     const Point2d goal = map_->lane(query.goals[0].lane).center.pointAt(query.goals[0].s);

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "external_command/core/text.h"
-
+#include "support/command_path_matcher.h"
 #include "support/routing_world.h"
 
 namespace external_command {
@@ -229,7 +229,7 @@ class CoarseJunction : public ReferencePathWorld {
     ReferencePath found = referencePath(map(), route, vehicle, path_params, {});
     limitSpeeds(vehicle, &found.path);
     if (found.tight.empty()) {
-      EXPECT_TRUE(isContinuous(found.path, 1.2 * path_params.spacing));
+      EXPECT_TRUE(isDrivableCommandPath(found.path, vehicle));
     }
     return found;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,8 @@ class MotionFlow {
   double cappedSpeed(double target_speed, PlanReport* report) const;
 
  private:
+  std::optional<Pose2d> startOnLane(const RoutingTask& task) const;
+
   ProcessContext& context_;
   MotionPublishers publishers_;
 };

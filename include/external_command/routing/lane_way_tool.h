@@ -21,6 +21,7 @@ struct LaneWayParams {
   double off_lane_distance = 2.0;        ///< a vehicle with no lane this near ... [m]
   double off_lane_heading = M_PI / 3.0;  ///< ... and within this of its heading [rad] is off the lanes (park-and-go)
   double park_and_go_radius = 20.0;      ///< it then starts from any lane this near [m]
+  double area_access_distance = 10.0;    ///< of lanes to the area that a vehicle stands in, at most [m]
   double parking_lane_radius = 20.0;     ///< lanes beside a parking space without overlaps, at most [m]
 
   /// @throws InvalidParameter  out of range.
@@ -49,7 +50,8 @@ class LaneWayTool {
 
   /// Candidates for the start: the vehicle's own lane and those that it could as well be on, as above but within
   /// `off_lane_distance` and `off_lane_heading`; or, for a vehicle off the lanes, every lane within
-  /// `park_and_go_radius`, at no price, so that routing picks the one with the shortest route.
+  /// `park_and_go_radius`, at no price, so that routing picks the one with the shortest route. From inside an area the
+  /// vehicle starts where lanes give access to it, at the price of the way there; see accessPoints().
   /// @param height  of the vehicle, where it is known [m].
   /// @throws OffMap  no lane within that radius.
   /// @throws InvalidRequest  the pose is not finite.
@@ -69,6 +71,8 @@ class LaneWayTool {
 
  private:
   std::vector<LanePoint> candidates(const Point2d& point, LaneQuery query, const std::optional<double>& height) const;
+
+  std::vector<LanePoint> fromArea(const Point2d& point) const;
 
   LaneQuery ownLanes(const Pose2d& vehicle) const;
 

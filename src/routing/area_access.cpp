@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "area_access.h"
+#include "external_command/routing/area_access.h"
 
 #include <limits>
 

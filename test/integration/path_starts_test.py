@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Paths begin at the vehicle, wherever it stands, and are driven to their end by the simulated one."""
+import math
+import unittest
+
+import rospy
+import rostest
+from geometry_msgs.msg import PoseWithCovarianceStamped
+
+import support
+from external_command.msg import CommandStatus, LaneFollowCommand, Pose
+from external_command.srv import LaneFollow
+from vehicle import Vehicle
+
+EAST_END = Pose(x=300.0, y=194.75, heading=0.0, has_heading=True)
+CHARGING_SPOT = (322.0, 110.0, 0.0)  # in the yard, 30 m from the nearest lane
+
+
+class PathStartsTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.vehicle = Vehicle()
+        cls.initial_pose = rospy.Publisher("initialpose", PoseWithCovarianceStamped, queue_size=1)
+        support.wait_until(lambda: cls.initial_pose.get_num_connections() > 0, "the vehicle takes poses")
+
+    def place(self, x, y, heading):
+        message = PoseWithCovarianceStamped()
+        message.pose.pose.position.x, message.pose.pose.position.y = x, y
+        message.pose.pose.orientation.z = math.sin(heading / 2.0)
+        message.pose.pose.orientation.w = math.cos(heading / 2.0)
+        self.initial_pose.publish(message)
+        support.wait_until(lambda: math.hypot(self.vehicle.pose[0] - x, self.vehicle.pose[1] - y) < 1e-3, "it is there")
+        # The component hears of the pose in its own time.
+        support.wait_until(lambda: self.knows(x, y), "the component knows the pose")
+
+    def knows(self, x, y):
+        answer = self.follow(dry_run=True)
+        points = answer.path.points
+        return bool(points) and math.hypot(points[0].x - x, points[0].y - y) < 25.0
+
+    @staticmethod
+    def follow(end_pose=EAST_END, **fields):
+        call = support.service("external_command/lane_follow", LaneFollow)
+        return call(LaneFollowCommand(end_pose=end_pose, **fields))
+
+    def assert_begins_at(self, points, x, y, heading):
+        self.assertLess(math.hypot(points[0].x - x, points[0].y - y), 0.01)
+        self.assertLess(abs(math.remainder(points[0].heading - heading, 2.0 * math.pi)), 0.02)
+
+    def assert_drives_from(self, x, y, heading):
+        self.place(x, y, heading)
+        planned = self.follow(dry_run=True)
+        self.assertEqual(planned.status.error_code, CommandStatus.OK, support.describe(planned.status))
+        self.assertEqual(planned.report.warnings, [])
+        self.assert_begins_at(planned.path.points, x, y, heading)
+        status = self.follow().status
+        support.wait_for_status(status.command_id, CommandStatus.FINISHED, deadline=60.0)
+
+    def test_on_the_lane_but_beside_its_centre_line(self):
+        self.assert_drives_from(150.0, 195.4, 0.15)
+
+    def test_in_an_area_of_the_map(self):
+        self.assert_drives_from(*CHARGING_SPOT)
+
+    def test_off_the_lanes_where_there_is_room_to_get_onto_one(self):
+        self.assert_drives_from(150.0, 190.5, 0.0)
+
+    def test_too_far_off_the_lanes_for_a_manoeuvre_is_told_with_the_distance(self):
+        self.place(150.0, 180.0, 0.0)
+        answer = self.follow(dry_run=True)
+        self.assertEqual(answer.status.error_code, CommandStatus.OK, support.describe(answer.status))
+        self.assertTrue(any("m from the vehicle: no manoeuvre leads there" in warning
+                            for warning in answer.report.warnings), answer.report.warnings)
+
+    def test_a_path_that_is_too_long_is_refused(self):
+        self.place(90.0, 194.75, 0.0)
+        answer = self.follow(way_point=[EAST_END, Pose(x=90.0, y=194.75)] * 200, dry_run=True)
+        self.assertEqual(answer.status.error_code, CommandStatus.INVALID_REQUEST, support.describe(answer.status))
+        self.assertIn("~routing/max_path_length", answer.status.message)
+
+
+if __name__ == "__main__":
+    rospy.init_node("path_starts_test")
+    rostest.rosrun("external_command", "path_starts", PathStartsTest)
