@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "external_command/core/polyline.h"
 #include "smoothing.h"
 
 namespace external_command {
@@ -21,6 +20,16 @@ constexpr double kNearLimit = 0.97;     // share of the vehicle's curvature that
 constexpr double kCrawl = 2.0;          // at which the wheels can be turned as fast as the path asks [m/s]
 constexpr double kNoticeable = 0.3;     // by which the front swings out before it is looked at [m]
 constexpr double kFrontMayLeave = 0.1;  // the lane, before anything is done about it [m]
+
+/// Of points `step` [m] apart, the ends left out.
+std::vector<double> curvaturesOf(const std::vector<Point2d>& points, double step) {
+  std::vector<double> kappas(points.size(), 0.0);
+  const double scale = 1.0 / (step * step * step);
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    kappas[i] = scale * cross(points[i] - points[i - 1], points[i + 1] - points[i]);
+  }
+  return kappas;
+}
 
 /// Points of the curve through points[begin] ... points[end], both included, about `step` apart, without the first.
 class Resampler {
@@ -81,7 +90,7 @@ bool BendRelief::isHard(std::size_t place, double kappa, double next_kappa) cons
 }
 
 std::vector<BendRelief::Window> BendRelief::windowsOf(const CourseLayout& layout) const {
-  const std::vector<double> kappas = curvaturesOf(layout.points);
+  const std::vector<double> kappas = curvaturesOf(layout.points, step_);
   const auto margin = static_cast<std::size_t>(std::ceil(kMargin / step_));
   const std::size_t count = layout.points.size();
   // Where the lane bends too much already at an end of the path, only the place is kept there.

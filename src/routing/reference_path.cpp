@@ -71,10 +71,14 @@ Path pathThrough(const std::vector<Point2d>& points, std::size_t first, std::siz
   return path;
 }
 
-/// What the steering can follow at `speed` [m/s] bounds the change of curvature per metre, and the other way round.
+/// The speed at which the steering can follow from a point to the next.
 double steeringSpeed(const VehicleParams& vehicle, const ReferencePoint& from, const ReferencePoint& to) {
+  // The wheels turn by this at most, which is quick to tell, and enough nearly everywhere.
+  const double most = vehicle.wheelbase * std::abs(to.kappa - from.kappa);
+  const double reachable = vehicle.max_steering_rate * (to.s - from.s);
+  if (reachable >= most * std::max(from.speed, to.speed)) return std::max(from.speed, to.speed);
   const double turned = std::abs(std::atan(vehicle.wheelbase * to.kappa) - std::atan(vehicle.wheelbase * from.kappa));
-  return std::max(kSlowest, vehicle.max_steering_rate * (to.s - from.s) / std::max(turned, 1e-9));
+  return std::max(kSlowest, reachable / std::max(turned, 1e-9));
 }
 
 void capSpeeds(const std::vector<CoursePoint>& course, const CourseLayout& layout, const VehicleParams& vehicle,
