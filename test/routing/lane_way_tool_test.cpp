@@ -126,6 +126,17 @@ TEST_F(TwoWayRoad, StartsAVehicleOffTheLanesOnAnyLaneAround) {
   EXPECT_EQ(id(tool().fromVehicle({30, -2.1, 0.0})[0]), "south") << "the nearest first";
 }
 
+TEST_F(TwoWayRoad, StartsAVehicleInAnAreaWhereLanesGiveAccessToIt) {
+  builder.area("yard", {{20, -8}, {40, -8}, {40, -60}, {20, -60}});
+  const auto points = tool().fromVehicle({30, -50, 0});
+  ASSERT_FALSE(points.empty());
+  EXPECT_EQ(id(points[0]), "south");
+  EXPECT_NEAR(points[0].s, 60.0, 1.1) << "the first place that is nearest to the area";
+  EXPECT_GT(points[0].price, 40.0);
+  params.area_access_distance = 3.0;
+  EXPECT_THAT_REFUSED(tool().fromVehicle({30, -50, 0}), OffMap, "park_and_go_radius");
+}
+
 TEST_F(TwoWayRoad, RefusesAVehicleFarFromTheLanes) {
   EXPECT_EQ(tool().fromVehicle({30, -19, 0}).size(), 1u);
   EXPECT_THAT_REFUSED(tool().fromVehicle({30, -21, 0}), OffMap, "the limit is 20.00 m (~park_and_go_radius)");
