@@ -56,6 +56,11 @@ const ParkingSpace* HdMap::findParkingSpace(const std::string& id) const {
   return position ? &parkingSpaces()[*position] : nullptr;
 }
 
+std::string HdMap::whyUnusable(const std::string& parking_space_id) const {
+  const auto found = content_->map.unusable_parking_spaces.find(parking_space_id);
+  return found == content_->map.unusable_parking_spaces.end() ? "" : found->second;
+}
+
 const Area* HdMap::findArea(const std::string& id) const {
   const auto position = positionOf(content_->map.area_by_id, id);
   return position ? &areas()[*position] : nullptr;

@@ -29,6 +29,7 @@ struct MapContent {
   std::vector<Area> areas;
   std::vector<MapWarning> warnings;
   std::vector<BrokenLink> broken_links;
+  std::unordered_map<std::string, std::string> unusable_parking_spaces;  ///< why, by id
 
   std::unordered_map<std::string_view, LaneIndex> lane_by_id;
   std::unordered_map<std::string_view, std::size_t> parking_space_by_id;

@@ -28,8 +28,8 @@ class ObjectResolver {
     for (const ParkingSpaceData& space : data_.parking_spaces) addParkingSpace(space);
     map_.areas.reserve(data_.areas.size());
     for (const AreaData& area : data_.areas) addArea(area);
-    for (const WarningCounter* counter :
-         {&polygons_, &repeated_, &dangling_, &ranges_, &no_lanes_, &no_heading_, &bad_heading_}) {
+    for (const WarningCounter* counter : {&polygons_, &crossed_, &repeated_, &dangling_, &ranges_, &no_lanes_,
+                                          &no_heading_, &degrees_, &bad_heading_}) {
       counter->report(&map_.warnings);
     }
   }
@@ -47,14 +47,17 @@ class ObjectResolver {
 
   MapData& data_;
   MapContent& map_;
+  std::string why_not_;  ///< the last polygon cannot be used
   std::unordered_map<std::string_view, const OverlapData*> overlap_by_id_;
   std::unordered_map<std::string_view, std::vector<const OverlapData*>> overlaps_by_object_;  // lanes left out
   WarningCounter polygons_{"map objects dropped whose polygon cannot be used"};
+  WarningCounter crossed_{"parking spaces whose corners are in crossed order, which was put right"};
   WarningCounter repeated_{"parking spaces and areas dropped whose id is empty or an earlier one's"};
   WarningCounter dangling_{"references to overlaps, or of overlaps to lanes, that do not exist"};
   WarningCounter ranges_{"overlaps without a usable range on their lane, all of which is taken"};
   WarningCounter no_lanes_{"parking spaces that no lane overlaps; the lanes to park from are found by distance"};
   WarningCounter no_heading_{"parking spaces without a heading, which was derived from their shape"};
+  WarningCounter degrees_{"parking spaces whose heading is in degrees, and was taken as such"};
   WarningCounter bad_heading_{"parking spaces whose stated heading lies across them; it was derived from their shape"};
 };
 
@@ -72,6 +75,7 @@ std::optional<Polygon> ObjectResolver::polygonOf(const std::vector<Point2d>& poi
     return Polygon(points, name);
   } catch (const InvalidRequest& error) {
     polygons_.add(error.what());
+    why_not_ = error.what();
     return std::nullopt;
   }
 }
@@ -93,8 +97,13 @@ void ObjectResolver::addParkingSpace(const ParkingSpaceData& space) {
   if (space.id.empty() || map_.parking_space_by_id.count(space.id) > 0) {
     return repeated_.add("parking space \"", space.id, "\"");
   }
-  const auto polygon = polygonOf(space.polygon, "parking space " + space.id);
-  if (!polygon) return;
+  std::vector<Point2d> corners = space.polygon;
+  if (putInOrder(&corners)) crossed_.add(space.id);
+  const auto polygon = polygonOf(corners, "parking space " + space.id);
+  if (!polygon) {
+    map_.unusable_parking_spaces.emplace(space.id, why_not_);
+    return;
+  }
   std::vector<LaneOverlap> lanes = lanesOf(space.id, space.overlaps);
   if (lanes.empty()) no_lanes_.add(space.id);
   map_.parking_spaces.push_back({space.id, *polygon, headingOf(space, *polygon), std::move(lanes)});
@@ -104,11 +113,13 @@ void ObjectResolver::addParkingSpace(const ParkingSpaceData& space) {
 double ObjectResolver::headingOf(const ParkingSpaceData& space, const Polygon& polygon) {
   if (!space.has_heading || !std::isfinite(space.heading)) {
     no_heading_.add(space.id);
-  } else if (!fitsParkingSpace(polygon, space.heading)) {
-    bad_heading_.add(space.id, ": ", space.heading, " rad");
-  } else {
-    return normalizeAngle(space.heading);
+    return derivedParkingHeading(map_, polygon);
   }
+  const bool in_degrees = isInDegrees(polygon, space.heading);
+  if (in_degrees) degrees_.add(space.id, ": ", space.heading);
+  const double heading = normalizeAngle(in_degrees ? space.heading * M_PI / 180.0 : space.heading);
+  if (fitsParkingSpace(polygon, heading)) return heading;
+  bad_heading_.add(space.id, ": ", radians(heading));
   return derivedParkingHeading(map_, polygon);
 }
 

@@ -47,6 +47,7 @@ void FreeSpaceCommandProcessor::check(const FreeSpaceCommand& command) const {
 
 void FreeSpaceCommandProcessor::processSpecialCommand(const FreeSpaceCommand& command, const CancelToken& cancel,
                                                       MotionPlan* plan) {
+  const Deadline deadline = planner_->deadline();
   const Pose2d frame = context().vehiclePose().ofFrame(command.header.frame_id);
   const Pose2d start = plan->start.pose();
   const Pose2d goal = toMapPose(command.parking_spot_pose, frame);
@@ -55,7 +56,7 @@ void FreeSpaceCommandProcessor::processSpecialCommand(const FreeSpaceCommand& co
 
   plan->scene.start = start;
   plan->scene.goal = goal;
-  appendManoeuvre(planner_->plan(start, {goal}, region, 1.0, cancel, plan->scene), plan);
+  appendManoeuvre(planner_->plan(start, {goal}, region, deadline, cancel, plan->scene), plan);
   showRegion(region, &plan->scene);
   plan->command.command_type = PlanningCommand::CUSTOM;
   plan->command.custom_command = packAny(command);

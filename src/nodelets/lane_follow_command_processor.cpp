@@ -35,7 +35,7 @@ std::optional<RoutingTask> LaneFollowCommandProcessor::convert(const LaneFollowC
 void LaneFollowCommandProcessor::processSpecialCommand(const LaneFollowCommand& command, const CancelToken& cancel,
                                                        MotionPlan* plan) {
   if (command.is_start_pose_set) return;
-  leaveParkingPlace(context(), plan->start.pose(), *planner_, cancel, plan);
+  leaveParkingPlace(context(), plan->start.pose(), *planner_, planner_->deadline(), cancel, plan);
 }
 
 }  // namespace external_command

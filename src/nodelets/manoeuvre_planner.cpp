@@ -21,6 +21,8 @@ struct ManoeuvrePlanner::LatestGrid {
 
 namespace {
 
+constexpr double kLeastBudget = 2e-3;  // that planning can begin with [s]
+
 OccupancyGrid toGrid(const nav_msgs::OccupancyGrid& message, const Pose2d& frame, const ObstacleGridParams& params) {
   const auto& origin = message.info.origin;
   OccupancyGrid grid;
@@ -127,10 +129,15 @@ Region ManoeuvrePlanner::regionOf(Region::Parts parts) const {
 }
 
 FreeSpaceResult ManoeuvrePlanner::plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region,
-                                       double share, const CancelToken& cancel, const CommandScene& scene) const {
+                                       const Deadline& deadline, const CancelToken& cancel,
+                                       const CommandScene& scene) const {
   FreeSpaceParams params = params_;
-  params.time_budget *= share;
-  params.improve_budget *= share;
+  params.time_budget = std::min(params_.time_budget, deadline.left());
+  params.improve_budget *= params.time_budget / params_.time_budget;
+  if (params.time_budget < kLeastBudget) {
+    throw PlanningTimeout(text("the time of the command was used up before it was planned from ", at(start),
+                               "; raise ~free_space/time_budget, which is ", seconds(params_.time_budget)));
+  }
   try {
     return FreeSpacePlanner(context_.params().vehicle, params).plan(start, goals, region, cancel);
   } catch (const StartBlocked&) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "external_command/core/deadline.h"
 #include "external_command/free_space/free_space_planner.h"
 #include "external_command/ros/motion_command_processor.h"
 
@@ -40,19 +41,23 @@ class ManoeuvrePlanner {
   /// @throws NotReady  the grid has not come, or is too old.
   Region regionOf(Region::Parts parts) const;
 
-  /// The cheapest manoeuvre from `start` to one of `goals`, within `share` of the time budget. A start or goal that is
-  /// blocked is shown in rviz together with `scene`.
+  /// By when a command that is begun now is to be planned, all its manoeuvres together.
+  Deadline deadline() const { return Deadline(params_.time_budget); }
+
+  /// The cheapest manoeuvre from `start` to one of `goals` that is found by `deadline`. A start or goal that is blocked
+  /// is shown in rviz together with `scene`.
   /// @throws  as FreeSpacePlanner::plan()
-  FreeSpaceResult plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region, double share,
-                       const CancelToken& cancel, const CommandScene& scene) const;
+  FreeSpaceResult plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region,
+                       const Deadline& deadline, const CancelToken& cancel, const CommandScene& scene) const;
+
+  /// Shows in rviz what stands in the way of `poses`, together with `scene`.
+  void showConflicts(const std::vector<Pose2d>& poses, const Region& region, CommandScene scene) const;
 
  private:
   struct LatestGrid;
 
   /// @throws NotReady  a grid of that stamp is too old, or of the future.
   void requireFresh(ros::Time stamp) const;
-
-  void showConflicts(const std::vector<Pose2d>& poses, const Region& region, CommandScene scene) const;
 
   ProcessContext& context_;
   FreeSpaceParams params_;

@@ -2,16 +2,13 @@
 #include "parking_manoeuvres.h"
 
 #include <algorithm>
-#include <boost/geometry.hpp>
-#include <boost/geometry/geometries/multi_point.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/geometries/polygon.hpp>
 #include <iterator>
 #include <optional>
 #include <utility>
 
 #include "external_command/core/text.h"
 #include "external_command/map/drivable_surface.h"
+#include "parking_poses.h"
 
 namespace external_command {
 
@@ -20,12 +17,9 @@ namespace {
 constexpr double kSurfaceRadius = 25.0;                     // of lanes around a place to manoeuvre [m]
 constexpr double kGapRadius = 10.0;                         // along the lane, that such a gap is closed [m]
 constexpr double kGaps[] = {0.3, 1.0, 2.0, 3.0, 4.0, 5.0};  // between lanes and a space, tried in turn [m]
-constexpr double kSlack = 0.02;  // beyond the margin, so that rounding does not block a goal [m]
 constexpr double kThroat = 1.0;  // by which more than just touching is open between lane and space [m]
 constexpr double kLeavingPoints[] = {0.0, 4.0, 8.0, 12.0};         // before the route's end, from which to leave it [m]
 constexpr double kJoiningPoints[] = {5.0, 8.0, 12.0, 16.0, 22.0};  // after the route's start, where to get onto it [m]
-
-using BoostPoint = boost::geometry::model::d2::point_xy<double>;
 
 Point2d middleOf(const Polygon& polygon) {
   Point2d sum = Point2d::Zero();
@@ -51,7 +45,8 @@ std::vector<Polygon> placesOf(const HdMap& map, const VehicleParams& vehicle, do
   const Point2d middle = middleOf(vehicle, pose);
   std::vector<Polygon> places;
   for (const ParkingSpace& space : map.parkingSpaces()) {
-    if (places.empty() && space.polygon.contains(middle)) places.push_back(placeFor(space, vehicle, margin, pose));
+    if (places.empty() && space.polygon.contains(middle))
+      places.push_back(ParkingSpot(space, vehicle, margin, {}).placeFor({pose}));
   }
   if (const Area* area = map.areaAt(middle)) places.push_back(area->polygon);
   if (!places.empty()) return places;
@@ -89,50 +84,6 @@ void tellStart(const ProcessContext& context, const Pose2d& vehicle, const std::
 
 }  // namespace
 
-ParkingDirection readParkingDirection(const ParameterReader& reader) {
-  std::string word = "cheaper";
-  reader.read("parking_direction", &word);
-  if (word == "nose_in") return ParkingDirection::kNoseIn;
-  if (word == "backing_in") return ParkingDirection::kBackingIn;
-  if (word == "cheaper") return ParkingDirection::kCheaper;
-  throw InvalidParameter(
-      text("parameter ", reader.nameOf("parking_direction"), " is '", word, "'; give nose_in, backing_in or cheaper"));
-}
-
-std::vector<Pose2d> parkingPoses(const ParkingSpace& space, const VehicleParams& vehicle, double margin,
-                                 ParkingDirection direction) {
-  // In the frame of the space's heading the middle of its bounding box is the middle of the space.
-  const Pose2d frame{space.polygon.points()[0].x(), space.polygon.points()[0].y(), space.heading};
-  Point2d low = Point2d::Zero(), high = Point2d::Zero();
-  for (const Point2d& corner : space.polygon.points()) {
-    const Point2d local = relativeTo(frame, {corner.x(), corner.y(), 0.0}).position();
-    low = low.cwiseMin(local);
-    high = high.cwiseMax(local);
-  }
-  Point2d middle = (low + high) / 2.0;
-  // In a space that is too short the vehicle sticks out towards the lane, not beyond the far end.
-  middle.x() = std::min(middle.x(), high.x() - margin - kSlack - vehicle.length() / 2.0);
-  const double ahead = vehicle.length() / 2.0 - vehicle.rear_overhang;
-  const Pose2d nose_in = compose(frame, {middle.x() - ahead, middle.y(), 0.0});
-  const Pose2d backing_in = compose(frame, {middle.x() + ahead, middle.y(), M_PI});
-  if (direction == ParkingDirection::kNoseIn) return {nose_in};
-  if (direction == ParkingDirection::kBackingIn) return {backing_in};
-  return {nose_in, backing_in};
-}
-
-Polygon placeFor(const ParkingSpace& space, const VehicleParams& vehicle, double margin, const Pose2d& parked) {
-  boost::geometry::model::multi_point<BoostPoint> points;
-  const Point2d origin = parked.position();  // UTM coordinates would eat the digits
-  const auto add = [&](const Point2d& point) { points.emplace_back(point.x() - origin.x(), point.y() - origin.y()); };
-  for (const Point2d& corner : space.polygon.points()) add(corner);
-  for (const Point2d& corner : footprintAt(vehicle, parked, margin + kSlack)) add(corner);
-  boost::geometry::model::polygon<BoostPoint> hull;
-  boost::geometry::convex_hull(points, hull);
-  std::vector<Point2d> corners;
-  for (const BoostPoint& point : hull.outer()) corners.push_back(origin + Point2d(point.x(), point.y()));
-  return Polygon(corners, text("parking space ", space.id));
-}
-
 Region::Parts surfaceWith(const HdMap& map, const Polygon& core, const Pose2d& on_lane) {
   const auto surface_at = [&](double gap) {
     return drivableSurface(map, core, on_lane.position(), {kSurfaceRadius, gap, kGapRadius});
@@ -153,18 +104,20 @@ Region::Parts surfaceWith(const HdMap& map, const Polygon& core, const Pose2d& o
 }
 
 void leaveRouteFor(const std::vector<Pose2d>& goals, const Region& region, const ManoeuvrePlanner& planner,
-                   const CancelToken& cancel, MotionPlan* plan) {
+                   const Deadline& deadline, const CancelToken& cancel, MotionPlan* plan) {
   const double end = plan->path.back().s;
-  const double share = 1.0 / static_cast<double>(std::size(kLeavingPoints));
+  std::size_t left = std::size(kLeavingPoints);
   std::optional<FreeSpaceResult> best;
   std::size_t best_index = 0;
   double best_cost = 0.0;
+  bool ran_out_of_time = false;
   std::string why;
   for (const double before : kLeavingPoints) {
     if (before > end) break;
     const std::size_t index = indexAt(plan->path, end - before);
+    const Deadline attempt = deadline.part(1.0 / static_cast<double>(left--));
     try {
-      FreeSpaceResult found = planner.plan(plan->path[index].pose(), goals, region, share, cancel, plan->scene);
+      FreeSpaceResult found = planner.plan(plan->path[index].pose(), goals, region, attempt, cancel, plan->scene);
       const double cost = plan->path[index].s + found.cost;
       if (best && cost >= best_cost) continue;
       best = std::move(found);
@@ -175,9 +128,11 @@ void leaveRouteFor(const std::vector<Pose2d>& goals, const Region& region, const
     } catch (const GoalBlocked&) {
       throw;
     } catch (const Error& error) {
+      ran_out_of_time = ran_out_of_time || error.code() == ErrorCode::kPlanningTimeout;
       why += text(why.empty() ? "" : "; ", metres(before), " before the route's end: ", error.what());
     }
   }
+  if (!best && ran_out_of_time) throw PlanningTimeout("no manoeuvre leads from the route to its goal: " + why);
   if (!best) throw NoPath("no manoeuvre leads from the route to its goal: " + why);
   plan->path.resize(best_index + 1);
   showRegion(region, &plan->scene);
@@ -186,16 +141,18 @@ void leaveRouteFor(const std::vector<Pose2d>& goals, const Region& region, const
 }
 
 void leaveParkingPlace(const ProcessContext& context, const Pose2d& vehicle, const ManoeuvrePlanner& planner,
-                       const CancelToken& cancel, MotionPlan* plan) {
+                       const Deadline& deadline, const CancelToken& cancel, MotionPlan* plan) {
   const HdMap& map = context.requireRouter().map();
   if (!LaneWayTool(map, context.params().lane_way).isOffLane(vehicle)) return;
   const double margin = planner.params().margin;
   std::string why;
-  for (const Polygon& place : placesOf(map, context.params().vehicle, margin, vehicle)) {
+  const std::vector<Polygon> places = placesOf(map, context.params().vehicle, margin, vehicle);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Deadline attempt = deadline.part(1.0 / static_cast<double>(places.size() - i));
     try {
-      const Region region = planner.regionOf(surfaceWith(map, place, plan->path.front().pose()));
+      const Region region = planner.regionOf(surfaceWith(map, places[i], plan->path.front().pose()));
       const Joints joints = jointsOf(plan->path);
-      const FreeSpaceResult out = planner.plan(vehicle, joints.poses, region, 0.5, cancel, plan->scene);
+      const FreeSpaceResult out = planner.plan(vehicle, joints.poses, region, attempt, cancel, plan->scene);
       const auto joint = static_cast<std::ptrdiff_t>(joints.indices[out.goal_index]);
       const Path rest(plan->path.begin() + joint, plan->path.end());
       plan->path.clear();

@@ -93,6 +93,7 @@ std::optional<RoutingTask> PreciseParkingCommandProcessor::convert(const Precise
 
 void PreciseParkingCommandProcessor::processSpecialCommand(const PreciseParkingCommand& command,
                                                            const CancelToken& cancel, MotionPlan* plan) {
+  const Deadline deadline = planner_->deadline();
   const HdMap& map = context().requireRouter().map();
   const VehicleParams& vehicle = context().params().vehicle;
   const Pose2d spot = spotOf(command);
@@ -113,13 +114,13 @@ void PreciseParkingCommandProcessor::processSpecialCommand(const PreciseParkingC
   }
   if (plan->path.empty()) {
     plan->scene.start = entry;
-    appendManoeuvre(planner_->plan(entry, {before}, region, 1.0, cancel, plan->scene), plan);
+    appendManoeuvre(planner_->plan(entry, {before}, region, deadline, cancel, plan->scene), plan);
     showRegion(region, &plan->scene);
   } else {
     if (!command.is_start_pose_set) {
-      leaveParkingPlace(context(), plan->start.pose(), *planner_, cancel, plan);
+      leaveParkingPlace(context(), plan->start.pose(), *planner_, deadline.part(0.5), cancel, plan);
     }
-    leaveRouteFor({before}, region, *planner_, cancel, plan);
+    leaveRouteFor({before}, region, *planner_, deadline, cancel, plan);
   }
   plan->path = join(plan->path, last);
   plan->report.min_clearance = std::min(plan->report.min_clearance, checker.minClearance(last));

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "external_command/ValetParking.h"
 #include "parking_manoeuvres.h"
+#include "parking_poses.h"
 
 namespace external_command {
 
@@ -20,8 +23,26 @@ class ValetParkingCommandProcessor : public MotionCommandProcessor<ValetParking>
   std::optional<RoutingTask> convert(const ValetParkingCommand& command, const PlanStart& start) override;
   void processSpecialCommand(const ValetParkingCommand& command, const CancelToken& cancel, MotionPlan* plan) override;
 
+  void reportSmallSpaces() const;
+  const ParkingSpace& spaceOf(const ValetParkingCommand& command) const;
+  ParkingSpot spotIn(const ParkingSpace& space) const;
+  RoutingTask taskTo(const ValetParkingCommand& command, const PlanStart& start,
+                     std::vector<LanePoint> candidates) const;
+  std::vector<LanePoint> otherLanes(const ParkingSpace& space, const std::vector<LanePoint>& known) const;
+  bool hasRoute(const RoutingTask& task) const;
+
+  /// Replaces the end of the route by the way into the space, and its begin where the vehicle is parked.
+  void park(const ValetParkingCommand& command, const Deadline& deadline, const CancelToken& cancel,
+            MotionPlan* plan) const;
+
+  /// The same by a route to a lane alongside, where `why` stands against the one that was taken; false where none does.
+  bool parkFromOtherLane(const ValetParkingCommand& command, const std::string& why, const Deadline& deadline,
+                         const CancelToken& cancel, MotionPlan* plan) const;
+
+  std::vector<Pose2d> freePosesIn(const ParkingSpace& space, const MotionPlan& plan) const;
+
   std::optional<ManoeuvrePlanner> planner_;
-  ParkingDirection direction_ = ParkingDirection::kCheaper;
+  ParkingParams params_;
 };
 
 }  // namespace external_command

@@ -15,6 +15,7 @@ namespace external_command {
 namespace {
 
 constexpr double kTrackingPeriod = 0.1;  // [s]
+constexpr double kLeastBudget = 1e-3;    // that a plan is begun with [s]
 
 }  // namespace
 
@@ -153,16 +154,17 @@ std::optional<RoutingTask> ZoneCoverCommandProcessor::convert(const ZoneCoverCom
 }
 
 void ZoneCoverCommandProcessor::enterZone(const ZoneCoverCommand& command, const CoverageArea& zone,
-                                          const CancelToken& cancel, MotionPlan* plan) const {
+                                          const Deadline& whole, const CancelToken& cancel, MotionPlan* plan) const {
+  const Deadline deadline = planner_->deadline().orSooner(whole);
   const HdMap& map = context().requireRouter().map();
   if (!command.is_start_pose_set) {
-    leaveParkingPlace(context(), plan->start.pose(), *planner_, cancel, plan);
+    leaveParkingPlace(context(), plan->start.pose(), *planner_, deadline.part(0.5), cancel, plan);
   }
   const Pose2d from = plan->path.back().pose();
   const auto entries = zoneEntries(zone, context().params().vehicle, coverage_params_.margin, from);
   Region::Parts parts = surfaceWith(map, zone.outer, from);
   parts.non_drivable.insert(parts.non_drivable.end(), zone.holes.begin(), zone.holes.end());
-  leaveRouteFor(entries, planner_->regionOf(std::move(parts)), *planner_, cancel, plan);
+  leaveRouteFor(entries, planner_->regionOf(std::move(parts)), *planner_, deadline, cancel, plan);
 }
 
 ZonePlanFile ZoneCoverCommandProcessor::fileOf(const ZoneCoverCommand& command, const CoverageArea& zone,
@@ -202,12 +204,15 @@ void ZoneCoverCommandProcessor::processSpecialCommand(const ZoneCoverCommand& co
                                                       MotionPlan* plan) {
   const CoverageArea zone = zoneOf(command);
   const CoverageParams params = paramsFor(command);
-  const CoveragePlanner planner(context().params().vehicle, params);
-  if (!plan->path.empty()) enterZone(command, zone, cancel, plan);
+  const Deadline deadline(params.time_budget);
+  if (!plan->path.empty()) enterZone(command, zone, deadline, cancel, plan);
   const Pose2d start = plan->path.empty() ? givenStart(command, plan->start) : plan->path.back().pose();
 
   const ZonePlanFile file = fileOf(command, zone, params);
   CoverageProgress progress = progressOf(command, zone, params, file);
+  CoverageParams timed = params;
+  timed.time_budget = std::max(deadline.left(), kLeastBudget);
+  const CoveragePlanner planner(context().params().vehicle, timed);
   CoverageResult coverage = planner.plan(zone, start, progress, cancel);
   const std::size_t offset = plan->path.empty() ? 0 : plan->path.size() - 1;  // join() shares the point between both
   appendCoverage(coverage, plan);

@@ -49,8 +49,8 @@ class ZoneCoverCommandProcessor : public MotionCommandProcessor<ZoneCover> {
   CoverageArea zoneOf(const ZoneCoverCommand& command) const;
   Pose2d givenStart(const ZoneCoverCommand& command, const PlanStart& start) const;
   bool isInside(const ZoneCoverCommand& command, const PlanStart& start) const;
-  void enterZone(const ZoneCoverCommand& command, const CoverageArea& zone, const CancelToken& cancel,
-                 MotionPlan* plan) const;
+  void enterZone(const ZoneCoverCommand& command, const CoverageArea& zone, const Deadline& deadline,
+                 const CancelToken& cancel, MotionPlan* plan) const;
   ZonePlanFile fileOf(const ZoneCoverCommand& command, const CoverageArea& zone, const CoverageParams& params) const;
   CoverageProgress progressOf(const ZoneCoverCommand& command, const CoverageArea& zone, const CoverageParams& params,
                               const ZonePlanFile& file);

@@ -175,6 +175,10 @@ std::vector<LanePoint> LaneWayTool::fromVehicle(const Pose2d& vehicle, const std
 
 std::vector<LanePoint> LaneWayTool::fromParkingSpace(const std::string& id, bool* used_geometry) const {
   const ParkingSpace* space = map_.findParkingSpace(id);
+  const std::string why_not = map_.whyUnusable(id);
+  if (space == nullptr && !why_not.empty()) {
+    throw InvalidRequest(text("parking_spot_id '", id, "' cannot be used: in the map its polygon is wrong, ", why_not));
+  }
   if (space == nullptr) {
     throw InvalidRequest(text("parking_spot_id '", id, "' is none of the map's ", map_.parkingSpaces().size(),
                               " parking spaces", nearParkingSpaceIds(map_, id)));
@@ -191,6 +195,19 @@ std::vector<LanePoint> LaneWayTool::fromParkingSpace(const std::string& id, bool
   if (!candidates.empty()) return candidates;
   throw OffMap(text("no lane to drive on lies within ", metres(params_.parking_lane_radius),
                     " (~parking_lane_radius) of parking space ", id, " at ", at(middle)));
+}
+
+std::vector<LanePoint> LaneWayTool::alongParkingSpace(const ParkingSpace& space, double max_gap) const {
+  const BoundingBox& box = space.polygon.box();
+  std::vector<LanePoint> points = within(0.5 * (box.min + box.max), params_.parking_lane_radius);
+  const auto is_far = [&](const LanePoint& point) {
+    const Lane& lane = map_.lane(point.lane);
+    const Point2d nearest = lane.center.pointAt(point.s);
+    if (space.polygon.contains(nearest)) return false;
+    return space.polygon.distanceToBorder(nearest) - lane.widthAt(point.s) / 2.0 > max_gap;
+  };
+  points.erase(std::remove_if(points.begin(), points.end(), is_far), points.end());
+  return points;
 }
 
 std::vector<LanePoint> LaneWayTool::within(const Point2d& point, double radius) const {

@@ -145,6 +145,34 @@ TEST_F(LaneAlongX, DoesNotBelieveAHeadingAcrossTheSpace) {
   EXPECT_TRUE(warnsOf(builder.build()->warnings(), 1, "heading lies across"));
 }
 
+TEST_F(LaneAlongX, TakesAHeadingOfMoreThanATurnForDegreesWhereThatFits) {
+  EXPECT_NEAR(headingOf({50, -6, M_PI / 2}, 5, 2.5, -90.0), -M_PI / 2, 1e-9);
+  EXPECT_TRUE(warnsOf(builder.build()->warnings(), 1, "heading is in degrees, and was taken as such, e.g. p: -90"));
+  EXPECT_NEAR(headingOf({50, -6, 0.6}, 5, 2.5, 0.6 / M_PI * 180.0), 0.6, 1e-9);
+  EXPECT_NEAR(headingOf({50, -6, M_PI / 2}, 5, 2.5, M_PI / 2 + 6 * M_PI), M_PI / 2, 1e-9)
+      << "three turns and a quarter";
+  EXPECT_NEAR(headingOf({50, -6, M_PI / 2}, 5, 2.5, 180.0), -M_PI / 2, 1e-9) << "across: derived";
+  EXPECT_TRUE(warnsOf(builder.build()->warnings(), 1, "heading lies across"));
+}
+
+TEST_F(LaneAlongX, PutsTheCornersOfASpaceInOrder) {
+  builder.parkingSpace("p", {50, -6, M_PI / 2}, 5, 2.5).parkingSpace("q", {60, -6, M_PI / 2}, 5, 2.5);
+  std::swap(builder.data().parking_spaces[0].polygon[1], builder.data().parking_spaces[0].polygon[2]);
+  std::swap(builder.data().parking_spaces[1].polygon[2], builder.data().parking_spaces[1].polygon[3]);
+  const auto map = builder.build();
+  ASSERT_EQ(map->parkingSpaces().size(), 2u);
+  for (const ParkingSpace& space : map->parkingSpaces()) EXPECT_NEAR(space.polygon.area(), 12.5, 1e-9);
+  EXPECT_TRUE(warnsOf(map->warnings(), 2, "parking spaces whose corners are in crossed order"));
+}
+
+TEST_F(LaneAlongX, TellsWhyASpaceCannotBeUsed) {
+  builder.parkingSpace("p", {50, -6, M_PI / 2}, 5, 2.5);
+  builder.data().parking_spaces[0].polygon.resize(2);
+  const auto map = builder.build();
+  EXPECT_NE(map->whyUnusable("p").find("2 distinct vertices"), std::string::npos) << map->whyUnusable("p");
+  EXPECT_EQ(map->whyUnusable("q"), "");
+}
+
 TEST_F(LaneAlongX, DerivesAHeadingWithoutAnyDrivableLane) {
   for (LaneData& lane : builder.data().lanes) lane.type = LaneType::kSidewalk;
   const double heading = headingOf({50, -6, M_PI / 2}, 5, 2.5, std::nullopt);

@@ -124,7 +124,9 @@ struct LaneMatch {
 /// - `junction_id`: the lane's own, else its road's, else the junction that takes half of it by the overlaps (*).
 /// - lanes of an object: by the overlaps it names; where it names none, by those that name it (*).
 /// - heading of a parking space, where it is missing or lies across the space: along the longer side, away from the
-///   nearest drivable lane; with the traffic where the space lies along the lane.
+///   nearest drivable lane; with the traffic where the space lies along the lane. A stated one of more than a full turn
+///   is in degrees if that fits the space.
+/// - four corners of a parking space in crossed order: put in order.
 ///
 /// - the other direction of a driving lane of both directions: a lane of its own with the same id (*), see
 ///   Lane::reverse. What else `direction` says decides nothing: lanes are driven along their centre lines.
@@ -167,8 +169,9 @@ class HdMap {
 
   /// In the direction of its centre line.
   std::optional<LaneIndex> findLane(const std::string& id) const;
-  const ParkingSpace* findParkingSpace(const std::string& id) const;  ///< nullptr where there is none
-  const Area* findArea(const std::string& id) const;                  ///< nullptr where there is none
+  const ParkingSpace* findParkingSpace(const std::string& id) const;   ///< nullptr where there is none
+  std::string whyUnusable(const std::string& parking_space_id) const;  ///< one that was dropped; empty for any other
+  const Area* findArea(const std::string& id) const;                   ///< nullptr where there is none
 
   /// Lanes of a road; empty where the road is unknown (`hasRoad` tells).
   std::vector<LaneIndex> lanesOfRoad(const std::string& road_id) const;

@@ -52,6 +52,9 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
   /// False for a path that begins where the command says.
   virtual bool beginsAtVehicle(const Command& command) const { return !startIsGiven(command, 0); }
 
+  /// For a processor that tries another route. From start() on.
+  const MotionFlow& flow() const { return *flow_; }
+
   void start() override {
     ServiceCommandProcessor<Service>::start();
     std::string history = "planning_command_history";

@@ -66,6 +66,10 @@ class LaneWayTool {
   /// @throws OffMap  no lane is near it.
   std::vector<LanePoint> fromParkingSpace(const std::string& id, bool* used_geometry) const;
 
+  /// The points abreast of the space on the drivable lanes whose edge comes within `max_gap` [m] of it, whatever the
+  /// map's overlaps say; the nearest first.
+  std::vector<LanePoint> alongParkingSpace(const ParkingSpace& space, double max_gap) const;
+
   /// Every drivable lane within `radius` [m] of `point`, the nearest first.
   std::vector<LanePoint> within(const Point2d& point, double radius) const;
 
