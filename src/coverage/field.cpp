@@ -77,8 +77,8 @@ Field::Field(const VehicleParams& vehicle, const CoverageParams& params, const C
 void Field::poll() const {
   cancel_.throwIfCancelled();
   if (timeUsed() < 1.0) return;
-  throw PlanningTimeout(text("the area was not planned within ", params_.time_budget,
-                             " s (time_budget); give it more time, or divide the area"));
+  throw PlanningTimeout(text("the area was not planned within ", seconds(params_.time_budget),
+                             " (time_budget); give it more time, or divide the area"));
 }
 
 double Field::timeUsed() const {
@@ -109,8 +109,8 @@ void Field::requireFreeStart() const {
   const bool hole = collision->kind == Collision::Kind::kNonDrivable;
   const Pose2d given{start_->x + origin_.x(), start_->y + origin_.y(), start_->heading};
   throw StartBlocked(text("at the start ", at(given), " the footprint ",
-                          hole ? text("is in hole ", collision->index) : text("is outside the area"), " by about ",
-                          metres(collision->depth), "; move the vehicle into the area"));
+                          hole ? text("is in hole ", collision->index) : text("is outside the area"), " ",
+                          collision->extent(), "; move the vehicle into the area"));
 }
 
 void Field::setGoal() {

@@ -99,6 +99,10 @@ std::string Collision::obstacle() const {
   return "the axle bounds";
 }
 
+std::string Collision::extent() const {
+  return depth < kFarthest ? "by " + metres(depth) : "by more than " + metres(kFarthest);
+}
+
 std::optional<Collision> probeCollision(const FootprintIndex& index, const Pose2d& local) {
   if (index.isFree(local)) return std::nullopt;
   const Point2d origin = index.obstacles().origin();

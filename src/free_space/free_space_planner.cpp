@@ -40,8 +40,8 @@ struct Solution {
 std::string describe(const std::string& what, const Pose2d& pose, const Collision& collision, double margin) {
   const bool is_border =
       collision.kind == Collision::Kind::kDrivableBorder || collision.kind == Collision::Kind::kAxleBounds;
-  return text(what, " ", at(pose), is_border ? " sticks out of " : " overlaps ", collision.obstacle(), " by ",
-              metres(collision.depth), " near ", at(collision.at), ", the margin of ", metres(margin), " included");
+  return text(what, " ", at(pose), is_border ? " sticks out of " : " overlaps ", collision.obstacle(), " ",
+              collision.extent(), " near ", at(collision.at), ", the margin of ", metres(margin), " included");
 }
 
 /// The goals are numbered only where there are several.
@@ -88,8 +88,8 @@ class Planning {
   void throwIfStopped() const {
     stop_.cancel().throwIfCancelled();
     if (!stop_.isReached()) return;
-    throw PlanningTimeout(text("the obstacles are so many that ", params_.time_budget,
-                               " s (time_budget) did not suffice to take them in; give a smaller region"));
+    throw PlanningTimeout(text("the obstacles are so many that ", seconds(params_.time_budget),
+                               " (time_budget) did not suffice to take them in; give a smaller region, or more time"));
   }
 
   Pose2d local(const Pose2d& pose) const { return {pose.x - origin_.x(), pose.y - origin_.y(), pose.heading}; }
@@ -157,10 +157,12 @@ class Planning {
       if (best.approach != nullptr) return best;
       if (all_hopeless) throw NoPath(whyNone("there is none, searched in steps of a centimetre or two"));
       if (stop_.isReached()) {
-        throw PlanningTimeout(whyNone(text("none was found within ", params_.time_budget, " s (time_budget)")));
+        throw PlanningTimeout(whyNone(text("none was found within ", seconds(params_.time_budget),
+                                           "; give it more time (time_budget), or a smaller margin (margin)")));
       }
       if (steps >= params_.max_iterations) {
-        throw NoPath(whyNone(text("none was found in ", params_.max_iterations, " steps (max_iterations)")));
+        throw NoPath(
+            whyNone(text("none was found in ", params_.max_iterations, " steps; allow more (max_iterations)")));
       }
       steps = std::min<std::size_t>(4 * steps, params_.max_iterations);
     }

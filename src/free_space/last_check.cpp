@@ -10,13 +10,13 @@ namespace external_command {
 
 namespace {
 
-constexpr double kEndDistance = 1e-4;  ///< [m]
-constexpr double kEndTurn = 1e-5;      ///< [rad]
-constexpr double kSlip = 1e-4;         ///< [m]
-constexpr double kTurnSlack = 1e-5;    ///< of a step [rad]
+constexpr double kEndDistance = 1e-4;    ///< [m]
+constexpr double kEndTurn = 1e-5;        ///< [rad]
+constexpr double kSlip = 1e-4;           ///< [m]
+constexpr double kTurnSlack = 1e-5;      ///< of a step [rad]
 constexpr double kMarginSlack = 1.5e-3;  ///< [m]
-constexpr double kFineStep = 4e-3;     ///< most that a corner moves between two checks at the margin [m]
-constexpr double kFarthest = 10.0;     ///< clearance beyond this is not measured [m]
+constexpr double kFineStep = 4e-3;       ///< most that a corner moves between two checks at the margin [m]
+constexpr double kFarthest = 10.0;       ///< clearance beyond this is not measured [m]
 
 /// The step from one point to the next as one arc, seen from the first: exact where the path consists of arcs.
 struct Step {
@@ -43,7 +43,7 @@ std::optional<std::string> faultOf(const Step& step, const ReferencePoint& to, c
   if (std::abs(step.sideways) > kSlip) return text("slips sideways by ", metres(std::abs(step.sideways)));
   if (std::abs(step.forward) > demands.spacing + kSlip) return text("jumps by ", metres(std::abs(step.forward)));
   const double allowed = demands.max_kappa * std::abs(step.forward) + kTurnSlack;
-  if (std::abs(step.turn) > allowed) return text("turns by ", std::abs(step.turn), " rad instead of ", allowed);
+  if (std::abs(step.turn) > allowed) return text("turns by ", radians(step.turn), ", more than its radius allows");
   return std::nullopt;
 }
 
@@ -101,7 +101,8 @@ LastCheck checkPath(const Path& path, const PathDemands& demands, const Footprin
     const Step step = stepBetween(path[i - 1], path[i]);
     if (const auto fault = faultOf(step, path[i], demands)) return fail(path[i], *fault);
     if (!sweep.follow(path[i - 1].pose(), step)) {
-      return fail(path[i], text("comes as near as ", metres(sweep.clearance()), " to an obstacle or leaves the bounds"));
+      return fail(path[i],
+                  text("comes as near as ", metres(sweep.clearance()), " to an obstacle or leaves the bounds"));
     }
   }
   check.min_clearance = sweep.minClearance();

@@ -40,7 +40,7 @@ void FreeSpaceCommandProcessor::check(const FreeSpaceCommand& command) const {
     throw InvalidRequest("parking_spot_pose.has_heading is false; a parking pose needs a heading");
   }
   checkPolygons(command.non_drivable_roi, "non_drivable_roi");
-  if (!command.drivable_roi.points.empty()) checkPolygons({command.drivable_roi}, "drivable_roi");
+  if (!command.drivable_roi.points.empty()) checkPolygon(command.drivable_roi, "drivable_roi");
   requireNotNegative(command.target_speed, "target_speed");
   partsOf(command, {});  // polygons that cross themselves
 }

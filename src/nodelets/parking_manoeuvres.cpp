@@ -110,6 +110,7 @@ void leaveRouteFor(const std::vector<Pose2d>& goals, const Region& region, const
   std::optional<FreeSpaceResult> best;
   std::size_t best_index = 0;
   double best_cost = 0.0;
+  double farthest = 0.0;
   bool ran_out_of_time = false;
   std::string why;
   for (const double before : kLeavingPoints) {
@@ -129,11 +130,13 @@ void leaveRouteFor(const std::vector<Pose2d>& goals, const Region& region, const
       throw;
     } catch (const Error& error) {
       ran_out_of_time = ran_out_of_time || error.code() == ErrorCode::kPlanningTimeout;
-      why += text(why.empty() ? "" : "; ", metres(before), " before the route's end: ", error.what());
+      if (why.empty()) why = text("no manoeuvre leads from the route to its goal: ", error.what());
+      farthest = before;
     }
   }
-  if (!best && ran_out_of_time) throw PlanningTimeout("no manoeuvre leads from the route to its goal: " + why);
-  if (!best) throw NoPath("no manoeuvre leads from the route to its goal: " + why);
+  if (!best && farthest > 0.0) why += text("; nor does one from up to ", metres(farthest), " before the route's end");
+  if (!best && ran_out_of_time) throw PlanningTimeout(why);
+  if (!best) throw NoPath(why);
   plan->path.resize(best_index + 1);
   showRegion(region, &plan->scene);
   plan->scene.goal = goals[best->goal_index];

@@ -118,9 +118,9 @@ Pose RoutingRequestConverter::onLane(const LaneWaypoint& way_point, const Pose2d
   Pose2d exact = lane.center.poseAt(point.s);
   const double turn = way_point.has_heading ? angleBetween(exact.heading, way_point.heading + frame.heading) : 0.0;
   if (std::abs(turn) > params.snap_heading) {
-    throw InvalidRequest(text(name, ": its heading differs by ", turn, " rad from that of its lane ", lane.id, " at s ",
-                              metres(point.s), ", ", exact.heading, "; the limit is ", params.snap_heading,
-                              " rad (~routing/snap_heading)"));
+    throw InvalidRequest(text(name, ": its heading differs by ", radians(turn), " from that of its lane ", lane.id,
+                              " at s ", metres(point.s), ", ", radians(exact.heading), "; the limit is ",
+                              radians(params.snap_heading), " (~routing/snap_heading)"));
   }
   // The command names no lanes: take a pose from which the same lane is found again.
   const LaneWayTool tool(map, params);

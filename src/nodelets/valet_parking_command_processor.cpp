@@ -52,7 +52,7 @@ std::string nameOf(const Collision& collision, const HdMap& map, const Region& r
 }
 
 std::string describe(const Collision& collision, const HdMap& map, const Region& region) {
-  return text(nameOf(collision, map, region), " by ", metres(collision.depth), " near ", at(collision.at));
+  return text(nameOf(collision, map, region), " ", collision.extent(), " near ", at(collision.at));
 }
 
 /// Around a place, for obstacles that are farther away not to be taken in.
@@ -185,8 +185,9 @@ void ValetParkingCommandProcessor::processSpecialCommand(const ValetParkingComma
                                                          MotionPlan* plan) {
   const Deadline deadline = planner_->deadline();
   const MotionPlan routed = *plan;
+  const bool has_others = !otherLanes(spaceOf(command), {{plan->route->steps.back().lane, 0.0}}).empty();
   try {
-    park(command, deadline.part(kFirstShare), cancel, plan);
+    park(command, has_others ? deadline.part(kFirstShare) : deadline, cancel, plan);
   } catch (const Error& error) {
     if (!mayHelpElsewhere(error.code())) throw;
     *plan = routed;

@@ -2,6 +2,7 @@
 #include "zone_cover_command_processor.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "external_command/core/text.h"
@@ -77,8 +78,13 @@ void ZoneCoverCommandProcessor::open() {
 void ZoneCoverCommandProcessor::check(const ZoneCoverCommand& command) const {
   const bool by_area = !command.zone_cover_area_id.empty();
   const bool by_polygon = !command.drivable_roi.points.empty();
-  if (by_area == by_polygon) {
-    throw InvalidRequest("give either zone_cover_area_id, an area of the map, or drivable_roi, a polygon");
+  if (by_area && by_polygon) {
+    throw InvalidRequest(text("zone_cover_area_id is '", command.zone_cover_area_id, "', and drivable_roi has ",
+                              command.drivable_roi.points.size(), " points; give one of them, not both"));
+  }
+  if (!by_area && !by_polygon) {
+    throw InvalidRequest(
+        "zone_cover_area_id and drivable_roi are both empty; give the id of an area of the map, or a polygon");
   }
   checkWayPoints(command.way_point, command.is_start_pose_set);
   if (by_polygon && command.way_point.size() > (command.is_start_pose_set ? 1u : 0u)) {
@@ -87,7 +93,7 @@ void ZoneCoverCommandProcessor::check(const ZoneCoverCommand& command) const {
   if (by_polygon && command.is_start_pose_set && !command.way_point[0].has_heading) {
     throw InvalidRequest("way_point[0].has_heading is false; the start of a zone needs a heading");
   }
-  if (by_polygon) checkPolygons({command.drivable_roi}, "drivable_roi");
+  if (by_polygon) checkPolygon(command.drivable_roi, "drivable_roi");
   checkPolygons(command.non_drivable_roi, "non_drivable_roi");
   paramsFor(command);
   requireNotNegative(command.target_speed, "target_speed");
@@ -191,11 +197,13 @@ CoverageProgress ZoneCoverCommandProcessor::progressOf(const ZoneCoverCommand& c
 void ZoneCoverCommandProcessor::appendCoverage(const CoverageResult& coverage, MotionPlan* plan) const {
   plan->path = join(plan->path, coverage.path);
   PlanReport& report = plan->report;
-  report.coverage_ratio = coverage.coverage_ratio;
+  report.coverage_ratio = coverage.covered_free;
+  report.reachable_coverage_ratio = coverage.coverage_ratio;
   report.warnings.insert(report.warnings.end(), coverage.warnings.begin(), coverage.warnings.end());
   if (!coverage.uncovered.empty()) {
-    report.warnings.push_back(text(coverage.uncovered.size(), " parts stay unswept; ", coverage.covered_area, " of ",
-                                   coverage.free_area, " m^2 are covered"));
+    report.warnings.push_back(text(coverage.uncovered.size(), " parts stay unswept; ",
+                                   std::lround(coverage.covered_area), " of ", std::lround(coverage.free_area),
+                                   " m^2 are covered"));
   }
   plan->scene.conflicts = coverage.uncovered;
 }

@@ -51,12 +51,12 @@ void requireFresh(const ros::Time& stamp, double max_age) {
   if (stamp.isZero()) return;
   const double age = ros::Time::now().toSec() - stamp.toSec();  // a ros::Duration holds 68 years only
   if (age > max_age) {
-    throw StaleRequest(text("header.stamp is ", age, " s old; the limit is ", max_age,
-                            " s (~max_request_age): send it again, or leave the stamp empty"));
+    throw StaleRequest(text("header.stamp is ", seconds(age), " old; the limit is ", seconds(max_age),
+                            " (~max_request_age): send it again, or leave the stamp empty"));
   }
   if (age < -max_age) {
-    throw StaleRequest(text("header.stamp lies ", -age, " s in the future; the limit is ", max_age,
-                            " s (~max_request_age): do the clocks agree?"));
+    throw StaleRequest(text("header.stamp lies ", seconds(-age), " in the future; the limit is ", seconds(max_age),
+                            " (~max_request_age): do the clocks agree?"));
   }
 }
 
@@ -83,10 +83,14 @@ void checkPoints(const std::vector<geometry_msgs::Point>& points, std::size_t lo
   for (std::size_t i = 0; i < points.size(); ++i) requireFinite(points[i], text(field, "[", i, "]"));
 }
 
+void checkPolygon(const RoiPolygon& polygon, const std::string& field) {
+  checkPoints(polygon.points, 3, RequestLimits::kPolygonPoints, field + ".points");
+}
+
 void checkPolygons(const std::vector<RoiPolygon>& polygons, const std::string& field) {
   requireSize(polygons.size(), 0, RequestLimits::kPolygons, field);
   for (std::size_t i = 0; i < polygons.size(); ++i) {
-    checkPoints(polygons[i].points, 3, RequestLimits::kPolygonPoints, text(field, "[", i, "].points"));
+    checkPolygon(polygons[i], text(field, "[", i, "]"));
   }
 }
 

@@ -19,7 +19,8 @@ constexpr double kBesideLane = 0.1;  // [m] by which `s` may miss its lane: map 
 
 void requireWithin(const char* key, double value, double low, double high) {
   if (value >= low && value <= high) return;  // false for NaN
-  throw InvalidParameter(text(key, " is ", value, "; it must lie in [", low, ", ", high, "]"));
+  throw InvalidParameter(
+      text(key, " is ", value, "; it must lie in [", low, ", ", high == M_PI ? "pi" : text(high), "]"));
 }
 
 /// Leaves out lanes at whose end the point lies where it lies on a lane that follows, too.
@@ -115,9 +116,9 @@ std::vector<LanePoint> LaneWayTool::fromPose(const Point2d& point, const std::op
   std::string difference;
   std::string limit = text("limit is ", metres(params_.max_goal_distance), " (~max_goal_distance)");
   if (heading) {
-    difference = text(", whose heading differs by ", std::abs(angleBetween(*heading, nearest->heading)), " rad");
-    limit = text("limits are ", metres(params_.snap_distance), " (~snap_distance) and ", params_.snap_heading,
-                 " rad (~snap_heading)");
+    difference = text(", whose heading differs by ", radians(std::abs(angleBetween(*heading, nearest->heading))));
+    limit = text("limits are ", metres(params_.snap_distance), " (~snap_distance) and ", radians(params_.snap_heading),
+                 " (~snap_heading)");
   }
   throw OffMap(text(name, " ", place, " is ", metres(nearest->frenet.distance), " from the nearest lane ",
                     map_.lane(nearest->lane).id, difference, "; the ", limit));

@@ -15,6 +15,8 @@ TEST(Text, WritesPointsPosesAndLengths) {
   EXPECT_EQ(at(Point2d(12.3, -4.5)), "(12.30, -4.50)");
   EXPECT_EQ(at(Pose2d{12.3, 4.5, M_PI / 2}), "(12.30, 4.50, 1.571)");
   EXPECT_EQ(metres(7.1), "7.10 m");
+  EXPECT_EQ(radians(M_PI), "3.14 rad");
+  EXPECT_EQ(seconds(1.0 / 3.0), "0.33 s");
 }
 
 TEST(Text, SurvivesAnyNumber) {

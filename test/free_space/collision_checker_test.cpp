@@ -138,6 +138,18 @@ TEST(CollisionChecker, FindsTheSmallestClearanceOfAPath) {
   EXPECT_NEAR(checker.minClearance(path), 2.0 - smallCar().width / 2.0, 1e-9);
 }
 
+TEST(CollisionChecker, TellsHowDeepAFootprintLies) {
+  Region::Parts parts;
+  parts.non_drivable = {Polygon({{-500, -500}, {500, -500}, {500, 500}, {-500, 500}}, "a lake")};
+  const auto deep = CollisionChecker(smallCar(), 0.1, Region(parts)).collisionAt({0, 0, 0});
+  ASSERT_TRUE(deep);
+  EXPECT_EQ(deep->extent(), "by more than 64.00 m");
+  parts.non_drivable = {Polygon({{-500, -500}, {500, -500}, {500, -0.5}, {-500, -0.5}}, "a shore")};
+  const auto shallow = CollisionChecker(smallCar(), 0.1, Region(parts)).collisionAt({0, 0, 0});
+  ASSERT_TRUE(shallow);
+  EXPECT_EQ(shallow->extent().find("by 0."), 0u) << shallow->extent();
+}
+
 TEST(CollisionChecker, RefusesANegativeMargin) {
   EXPECT_THROW(CollisionChecker(smallCar(), -0.1, Region()), InvalidParameter);
   EXPECT_THROW(CollisionChecker(smallCar(), std::nan(""), Region()), InvalidParameter);

@@ -182,7 +182,10 @@ class ManoeuvresTest(unittest.TestCase):
     def test_zone_cover_refuses_what_cannot_be_swept(self):
         self.drive_to_the_middle()
         invalid = CommandStatus.INVALID_REQUEST
-        self.assert_refused(self.zone_cover(), invalid, "zone_cover_area_id", "drivable_roi")
+        self.assert_refused(self.zone_cover(), invalid, "zone_cover_area_id and drivable_roi are both empty")
+        both = self.zone_cover(zone_cover_area_id="yard", drivable_roi=polygon(COURTYARD))
+        self.assert_refused(both, invalid, "yard", "drivable_roi has 4 points", "not both")
+        self.assert_refused(self.zone_cover(drivable_roi=polygon([(0, 0), (9, 9)])), invalid, "drivable_roi.points has 2")
         self.assert_refused(self.zone_cover(drivable_roi=polygon([(0, 0), (1, 0), (1, 1), (0, 1)])), invalid,
                             "smaller than the vehicle")
         self.assert_refused(self.zone_cover(drivable_roi=polygon([(0, 0), (30, 30), (30, 0), (0, 30)])), invalid,

@@ -80,7 +80,7 @@ class ObstacleGridTest(unittest.TestCase):
         others = dict(grid_unknown_is_blocked=False, grid_outside_is_blocked=True, max_grid_age=0)
         with parking(**others) as component:
             self.publisher.publish(grid(START, 0, stamp=rospy.Time.now() - rospy.Duration(600.0)))
-            blocked = self.wait_for(component, CommandStatus.NO_PATH)
+            blocked = self.wait_for(component, CommandStatus.GOAL_BLOCKED)
             self.assertIn("the obstacle grid", blocked.status.message)
             self.wait_for(component, CommandStatus.OK, grid(START, -1, stamp=rospy.Time(1.0), side=2000.0))
 

@@ -83,8 +83,7 @@ class ParkingMapsTest(unittest.TestCase):
         text += space("tiny", [(110, -5), (111, -5), (111, -3), (110, -3)], -math.pi / 2.0)
         text += space("line", [(130, -5), (140, -5), (150, -5)], -math.pi / 2.0)
         text += space("tight", [(160, -8.5), (162.4, -8.5), (162.4, -3), (160, -3)], -math.pi / 2.0)
-        text += space("over", [(162.35, -8.5), (165, -8.5), (165, -3), (162.35, -3)], -math.pi / 2.0)
-        text += space("under", [(156, -8.5), (159.9, -8.5), (159.9, -3), (156, -3)], -math.pi / 2.0)
+        text += space("over", [(162.2, -8.5), (165, -8.5), (165, -3), (162.2, -3)], -math.pi / 2.0)
         with tempfile.NamedTemporaryFile("w", suffix=".txt") as file:
             file.write(text)
             file.flush()

@@ -96,7 +96,9 @@ class ZoneCoverTest(unittest.TestCase):
     def test_sweeps_to_the_end_and_then_has_nothing_to_resume(self):
         corners = box(12, 9)
         answer = cover(corners)
-        self.assertGreater(answer.report.coverage_ratio, 0.95)
+        self.assertGreater(answer.report.reachable_coverage_ratio, 0.95)
+        self.assertGreater(answer.report.coverage_ratio, 0.8)
+        self.assertLessEqual(answer.report.coverage_ratio, answer.report.reachable_coverage_ratio)
         self.finish(self.assert_running(answer))
         self.assert_refused(cover(corners, resume=True), "resume", "is swept")
 

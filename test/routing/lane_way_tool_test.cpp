@@ -72,8 +72,8 @@ TEST_F(TwoWayRoad, TakesEveryLaneThatIsHardlyFurtherOffAtThePriceOfBeingOff) {
 TEST_F(TwoWayRoad, RefusesAPoseTooFarFromEveryLane) {
   EXPECT_NO_THROW(tool().fromPose({30, kWidth + 2.9}, 0.0, "end_pose"));
   EXPECT_THAT_REFUSED(tool().fromPose({30, kWidth + 3.1}, 0.0, "end_pose"), OffMap,
-                      "end_pose (30.00, 6.60, 0.000) is 3.10 m from the nearest lane north, whose heading differs by 0 "
-                      "rad; the limits are 3.00 m (~snap_distance) and 1 rad (~snap_heading)");
+                      "end_pose (30.00, 6.60, 0.000) is 3.10 m from the nearest lane north, whose heading differs by 0.00 "
+                      "rad; the limits are 3.00 m (~snap_distance) and 1.00 rad (~snap_heading)");
 }
 
 TEST_F(TwoWayRoad, RefusesAPoseAcrossEveryLane) {

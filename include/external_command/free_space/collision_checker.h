@@ -19,11 +19,14 @@ struct Collision {
 
   Kind kind = Kind::kNonDrivable;
   std::size_t index = 0;  ///< of the polygon in Region::nonDrivable(); 0 for the other kinds
-  double depth = 0.0;     ///< about how far the footprint must move to be `margin` away from it, positive [m]
+  double depth = 0.0;     ///< about how far the footprint must move to be `margin` away from it, in (0, 64] [m]
   Point2d at{0.0, 0.0};   ///< a point of the obstacle in the footprint, or nearest to it
 
   /// "drivable_roi", "non_drivable_roi[2]", "the obstacle grid", "the axle bounds".
   std::string obstacle() const;
+
+  /// "by 0.27 m", or "by more than 64.00 m" where no way out was found.
+  std::string extent() const;
 };
 
 /// The vehicle's exact footprint against the exact obstacles of a region. Immutable and thread-safe.

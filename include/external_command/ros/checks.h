@@ -39,6 +39,7 @@ void checkWayPoints(const std::vector<Pose>& way_points, bool is_start_pose_set)
 void checkBlackList(const std::vector<LaneSegment>& lanes, const std::vector<std::string>& roads);
 void checkPoints(const std::vector<geometry_msgs::Point>& points, std::size_t low, std::size_t high,
                  const std::string& field);
+void checkPolygon(const RoiPolygon& polygon, const std::string& field);
 void checkPolygons(const std::vector<RoiPolygon>& polygons, const std::string& field);
 
 }  // namespace external_command
