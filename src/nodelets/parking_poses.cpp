@@ -14,6 +14,7 @@ namespace external_command {
 namespace {
 
 constexpr double kSlack = 0.02;  // beyond the margin, so that rounding does not block a goal [m]
+constexpr double kEasy = 0.03;   // beyond the margin, wished for where the vehicle is moved aside anyway [m]
 constexpr int kSteps = 8;        // of the tolerances to either side, that are tried
 
 using BoostPoint = boost::geometry::model::d2::point_xy<double>;
@@ -106,8 +107,16 @@ std::vector<Pose2d> ParkingSpot::freePoses(const CollisionChecker& obstacles) co
   const std::vector<Pose2d> tried = offsets();
   std::vector<Pose2d> free;
   for (std::size_t i = 0; i < poses().size(); ++i) {
-    const auto is_free = [&](const Pose2d& offset) { return obstacles.isFree(posesAt(offset)[i]); };
-    const auto found = std::find_if(tried.begin(), tried.end(), is_free);
+    const auto nearest = [&](double more) {
+      return std::find_if(tried.begin(), tried.end(), [&](const Pose2d& offset) {
+        const Pose2d pose = posesAt(offset)[i];
+        return obstacles.isFree(pose) && obstacles.clearance(pose, 1.0) >= margin_ + more;
+      });
+    };
+    // A goal that only just keeps the margin is hard to reach.
+    const bool middle_is_free = obstacles.isFree(posesAt(tried.front())[i]);
+    auto found = middle_is_free ? tried.begin() : nearest(kEasy);
+    if (found == tried.end()) found = nearest(0.0);
     if (found != tried.end()) free.push_back(posesAt(*found)[i]);
   }
   return free;

@@ -83,7 +83,7 @@ class ParkingMapsTest(unittest.TestCase):
         text += space("tiny", [(110, -5), (111, -5), (111, -3), (110, -3)], -math.pi / 2.0)
         text += space("line", [(130, -5), (140, -5), (150, -5)], -math.pi / 2.0)
         text += space("tight", [(160, -8.5), (162.4, -8.5), (162.4, -3), (160, -3)], -math.pi / 2.0)
-        text += space("over", [(162.2, -8.5), (165, -8.5), (165, -3), (162.2, -3)], -math.pi / 2.0)
+        text += space("over", [(162.2, -8.5), (165, -8.5), (165, -7), (162.2, -7)], -math.pi / 2.0)
         with tempfile.NamedTemporaryFile("w", suffix=".txt") as file:
             file.write(text)
             file.flush()
@@ -100,7 +100,7 @@ class ParkingMapsTest(unittest.TestCase):
         self.assertEqual(answers["tiny"].status.error_code, CommandStatus.GOAL_BLOCKED)
         self.assertIn("2.00 m long and 1.00 m wide", answers["tiny"].status.message)
         self.assertEqual(answers["line"].status.error_code, CommandStatus.INVALID_REQUEST)
-        self.assertIn("no area", answers["line"].status.message)
+        self.assertIn("cannot be used", answers["line"].status.message)
         for words in ("heading is in degrees", "crossed order", "smaller than the vehicle", "the smallest is tiny"):
             self.assertIn(words, output)
 

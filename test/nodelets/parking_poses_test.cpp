@@ -78,8 +78,8 @@ TEST_F(SpaceBesideALane, MovesAsideNoMoreThanItMust) {
   ASSERT_EQ(free.size(), 2u);
   for (const Pose2d& pose : free) {
     EXPECT_TRUE(neighbours.isFree(pose));
-    EXPECT_NEAR(spot.offsetOf(pose).position().norm(), 0.1, 0.03);
-    EXPECT_NEAR(pose.x, 0.1, 0.03);
+    EXPECT_NEAR(spot.offsetOf(pose).position().norm(), 0.13, 0.03);
+    EXPECT_NEAR(pose.x, 0.13, 0.03);
     EXPECT_TRUE(spot.placeFor({pose}).contains({footprintAt(vehicle, pose, kMargin)[0]}));
   }
 }
