@@ -115,7 +115,7 @@ def run(args, stack):
         from demo_camera import Camera
         camera = Camera(stack, args.picture)
         camera.open(os.path.join(ROOT, "rviz/external_command.rviz"), drive.extent, drive.length)
-    finished = drive.go(goal, camera.take if camera else lambda: None)
+    finished = drive.go(goal, camera)
     if camera:
         print(f"picture: {args.picture}" if camera.has_picture else f"no picture: {camera.problem}")
     if args.keep:

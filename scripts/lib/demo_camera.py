@@ -9,20 +9,21 @@ import rosgraph
 import rospy
 import yaml
 
+import demo_overlay
 from demo_stack import DemoError
 
 WIDTH, HEIGHT = 1600, 1000  # of rviz's window [pixels]
 FRAME = 120  # pixels of the window's height that show no map
 MARGIN = 1.15
 START_TIMEOUT = 90.0  # [s]; drawing by software is slow
-PATH_COLOURS = ((255, 170, 0), (25, 230, 77))  # of the path in the rviz configuration, and of its marker
-PATH_WIDTH = 0.8  # of the path in the rviz configuration [m]
+ENOUGH = 0.2  # of the pixels that a straight path would take
 
 
 class Camera:
     def __init__(self, stack, picture):
         self.has_picture = False
         self.problem = "rviz was not started"
+        self.overlay = None  # once open
         self._stack = stack
         self._picture = picture
         self._display = {}
@@ -34,7 +35,8 @@ class Camera:
             self._open_invisible_display()
         own_config = os.path.join(self._stack.log_dir, "demo.rviz")
         scale = write_config(config, extent, own_config)
-        self._enough_pixels = 0.2 * path_length * PATH_WIDTH * scale ** 2
+        self._enough_pixels = ENOUGH * path_length * demo_overlay.line_width(scale) * scale ** 2
+        self.overlay = demo_overlay.Overlay(scale)
         self._stack.spawn("rviz", ["rviz", "--display-config", own_config, "__ns:=/apollo"], QT_X11_NO_MITSHM="1",
                           **self._display)
         self._stack.wait_for(self._listens_to_markers, "rviz", START_TIMEOUT, "rviz")
@@ -74,7 +76,8 @@ class Camera:
         shot = subprocess.run(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
         if shot.returncode != 0:
             return "no screenshot: " + shot.stdout.decode(errors="replace").strip()
-        if max(count_pixels(self._picture, PATH_COLOURS)) < self._enough_pixels:
+        colours = (demo_overlay.PATH_COLOUR, demo_overlay.TRAIL_COLOUR)
+        if sum(count_pixels(self._picture, colours)) < self._enough_pixels:
             return f"the path is not to be seen in {self._picture}; rviz's output: {self._stack.log_file('rviz')}"
         return ""
 
@@ -94,7 +97,8 @@ def display_works():
 
 
 def write_config(source, extent, target):
-    """A copy of an rviz configuration that looks straight down on `extent`, without side panels.
+    """A copy of an rviz configuration that looks straight down on `extent`, without side panels, in lines of a visible
+    width.
 
     Returns the scale [pixels/m].
     """
@@ -107,6 +111,12 @@ def write_config(source, extent, target):
     view.update({"Class": "rviz/TopDownOrtho", "Name": "Current View", "Angle": 0.0, "Near Clip Distance": 0.01,
                  "Scale": float(scale), "Target Frame": "<Fixed Frame>", "X": float(low_x + high_x) / 2.0,
                  "Y": float(low_y + high_y) / 2.0})
+    displays = config["Visualization Manager"]["Displays"]
+    for display in displays:
+        if display["Class"] == "rviz/Path":
+            display["Line Width"] = float(demo_overlay.line_width(scale))
+    displays.append({"Class": "rviz/MarkerArray", "Name": "Drive", "Enabled": True, "Value": True, "Namespaces": {},
+                     "Marker Topic": demo_overlay.TOPIC, "Queue Size": 10})
     config["Visualization Manager"]["Global Options"]["Frame Rate"] = 10
     geometry = config.setdefault("Window Geometry", {})
     geometry.update({"Width": WIDTH, "Height": HEIGHT, "X": 0, "Y": 0, "Hide Left Dock": True, "Hide Right Dock": True})

@@ -24,6 +24,7 @@ SILENCE_TIMEOUT = 60.0  # for a vehicle that does not get on [s]
 CANDIDATES = 8  # places between all pairs of which a route is tried
 END_LENGTH = 15.0  # [m]
 MAX_END_CURVATURE = 0.1  # [1/m]
+PICTURE_AT = 0.3  # of the way left
 STATUS_NAMES = {CommandStatus.RUNNING: "RUNNING", CommandStatus.FINISHED: "FINISHED", CommandStatus.ERROR: "ERROR",
                 CommandStatus.UNKNOWN: "UNKNOWN"}
 
@@ -130,8 +131,9 @@ class Drive:
         self._stack.wait_for(has_arrived, "the simulated vehicle at its start", START_TIMEOUT)
         publisher.unregister()
 
-    def go(self, goal, take_picture):
-        """Drives to `goal`; calls `take_picture` half-way. Returns whether the command has FINISHED."""
+    def go(self, goal, camera):
+        """Drives to `goal`; `camera`, where there is one, takes its picture on the way. Returns whether the command has
+        FINISHED."""
         self._path = None
         answer = self._lane_follow(LaneFollowCommand(end_pose=goal)).status
         print(f"lane-follow command {answer.command_id}: {STATUS_NAMES[answer.status]} {answer.message}", flush=True)
@@ -139,25 +141,33 @@ class Drive:
             return False
         self.command_id = answer.command_id
         progress = Progress(self._stack.wait_for(lambda: self._path, "the path", 10.0))
-        half_way = progress.left / 2.0
-        photographer = threading.Thread(target=take_picture, daemon=True)  # the vehicle does not wait for it
+        overlay = camera.overlay if camera else None
+        if overlay:
+            overlay.show_path(progress.points())
+        late = PICTURE_AT * progress.left
+        photographer = threading.Thread(target=camera.take if camera else lambda: None, daemon=True)  # nobody waits for it
         is_over = False
         while not is_over:
-            status = self._wait_for_news(progress)
+            status = self._wait_for_news(progress, overlay)
             is_over = status.status in (CommandStatus.FINISHED, CommandStatus.ERROR)
             print(f"  {progress.left:7.1f} m to go, {self._speed:5.1f} m/s  {STATUS_NAMES[status.status]} "
                   f"{status.message}", flush=True)
-            if photographer.ident is None and (is_over or progress.left < half_way):
+            if overlay:
+                overlay.publish()
+            if photographer.ident is None and (is_over or progress.left < late):
                 photographer.start()
         photographer.join()
         return status.status == CommandStatus.FINISHED
 
-    def _wait_for_news(self, progress):
+    def _wait_for_news(self, progress, overlay):
         """The command's status, after a second or when the command has ended."""
         deadline = time.monotonic() + 1.0
         while True:
             status = self._command_status(self.command_id).status
-            progress.update(self._position())
+            position = self._position()
+            progress.update(position)
+            if overlay:
+                overlay.add_position(position)
             if status.status in (CommandStatus.FINISHED, CommandStatus.ERROR) or time.monotonic() > deadline:
                 return status
             if progress.seconds_standing() > SILENCE_TIMEOUT:
@@ -176,7 +186,8 @@ class Drive:
         self._speed = chassis.speed_mps
 
     def _on_path(self, path):
-        self._path = path
+        if path.poses:  # an empty one follows when the command has ended
+            self._path = path
 
 
 class Progress:
@@ -189,6 +200,9 @@ class Progress:
         self._index = 0
         self._moved = time.monotonic()
         self.left = self._left[0]  # [m]
+
+    def points(self):
+        return [tuple(point) for point in self._points]
 
     def update(self, position):
         """Takes the nearest of the next points; a path may meet itself further on."""
