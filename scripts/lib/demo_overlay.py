@@ -12,7 +12,7 @@ TOPIC = "/apollo/demo/markers"
 PATH_COLOUR, TRAIL_COLOUR, VEHICLE_COLOUR = (255, 170, 0), (70, 190, 255), (255, 255, 255)
 LINE_WIDTH = 0.8  # [m], at least
 LINE_PIXELS = 4.0  # at least
-VEHICLE_LENGTH = 5.0  # [m]; one that is drawn shorter than VEHICLE_PIXELS gets a triangle of that size
+VEHICLE_LENGTH = 5.0  # [m]; one that is drawn shorter than VEHICLE_PIXELS gets an arrow of that size
 VEHICLE_PIXELS = 32.0
 TRAIL_STEP = 1.0  # between two points of the trail [m]
 
@@ -58,14 +58,13 @@ class Overlay:
         return line
 
     def _vehicle(self):
-        """A triangle that points ahead."""
+        """An arrow that points ahead."""
         length = VEHICLE_PIXELS / self._scale
-        triangle = marker("base_link", "vehicle", Marker.TRIANGLE_LIST, VEHICLE_COLOUR)
-        triangle.frame_locked = True
-        triangle.scale.x = triangle.scale.y = triangle.scale.z = 1.0
-        nose, left, right = (Point(x * length, y * length, 2.0) for x, y in ((0.6, 0.0), (-0.4, 0.35), (-0.4, -0.35)))
-        triangle.points = [nose, left, right, nose, right, left]  # seen from both sides
-        return triangle
+        arrow = marker("base_link", "vehicle", Marker.ARROW, VEHICLE_COLOUR)
+        arrow.frame_locked = True
+        arrow.scale.x, arrow.scale.y, arrow.scale.z = 0.3 * length, 0.7 * length, 0.6 * length  # shaft, head, its length
+        arrow.points = [Point(-0.5 * length, 0.0, 2.0), Point(0.5 * length, 0.0, 2.0)]
+        return arrow
 
 
 def marker(frame, name, kind, colour):
