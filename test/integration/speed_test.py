@@ -68,7 +68,7 @@ class SpeedTest(unittest.TestCase):
 
     def test_refuses_stale_stamps_and_those_of_the_future(self):
         self.assert_refused(change_speed(SpeedCommand.RESTORE_TARGET_SPEED, age=3.0), CommandStatus.STALE_REQUEST,
-                            "old", "2 s")
+                            "old", "the limit is 2.00 s")
         self.assert_refused(change_speed(SpeedCommand.RESTORE_TARGET_SPEED, age=-10.0), CommandStatus.STALE_REQUEST,
                             "future")
 
