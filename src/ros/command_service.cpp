@@ -85,10 +85,15 @@ CommandStatus CommandService::refuse(std::int64_t wanted_id) {
   return status;
 }
 
-void CommandService::tell(const CommandStatus& status) const {
+void CommandService::tell(const CommandStatus& status) {
   const bool is_refused = status.status == CommandStatus::ERROR;
-  logLater(is_refused ? LogLevel::kWarn : LogLevel::kInfo,
-           text(service_name_, " ", status.command_id, is_refused ? " refused: " : ": ", status.message));
+  const std::string line =
+      text(service_name_, " ", status.command_id, is_refused ? " refused: " : ": ", status.message);
+  if (is_refused) {
+    logLater(LogLevel::kWarn, refusals_, line);
+  } else {
+    logLater(LogLevel::kInfo, line);
+  }
 }
 
 void CommandService::log(CommandLogEntry entry) const {

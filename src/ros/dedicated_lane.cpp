@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "external_command/ros/dedicated_lane.h"
 
-#include <pthread.h>
-#include <sched.h>
-#include <sys/resource.h>
-#include <sys/syscall.h>
-#include <unistd.h>
-
 #include <boost/make_shared.hpp>
 #include <utility>
+
+#include "thread_priority.h"
 
 namespace external_command {
 
 namespace {
 
-constexpr double kIdle = 1.0;            // a thread without work looks after its lane that often [s]
-constexpr int kBackgroundNiceness = 10;  // a tenth of the processor's time beside a busy normal thread
+constexpr double kIdle = 1.0;  // a thread without work looks after its lane that often [s]
 
 class Job : public ros::CallbackInterface {
  public:
@@ -29,15 +24,9 @@ class Job : public ros::CallbackInterface {
   const std::function<void()> job_;
 };
 
-/// Of the calling thread. What is not allowed is left as it is.
 void take(LanePriority priority) {
-  if (priority == LanePriority::kBackground) {
-    setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kBackgroundNiceness);
-  } else if (priority == LanePriority::kUrgent) {
-    sched_param parameters{};
-    parameters.sched_priority = sched_get_priority_min(SCHED_RR);
-    pthread_setschedparam(pthread_self(), SCHED_RR, &parameters);
-  }
+  if (priority == LanePriority::kBackground) lowerThreadPriority();
+  if (priority == LanePriority::kUrgent) raiseThreadPriority();
 }
 
 }  // namespace

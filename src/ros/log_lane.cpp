@@ -4,6 +4,7 @@
 #include <ros/console.h>
 
 #include "external_command/core/text.h"
+#include "thread_priority.h"
 
 namespace external_command {
 
@@ -58,6 +59,7 @@ struct LogLane::State {
   bool has_ended = false;
 
   void run() {
+    lowerThreadPriority();
     std::unique_lock<std::mutex> lock(mutex);
     while (true) {
       changed.wait(lock, [this] { return is_ending || !waiting.empty(); });

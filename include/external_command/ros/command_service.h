@@ -12,6 +12,7 @@
 
 #include "external_command/CommandLogEntry.h"
 #include "external_command/ros/command_processor.h"
+#include "external_command/ros/log_lane.h"
 
 namespace external_command {
 
@@ -70,8 +71,8 @@ class CommandService : public CommandProcessor {
   /// The status of a request refused by an exception that is being handled. Logs it.
   CommandStatus refuse(std::int64_t wanted_id);
 
-  /// Writes the answer to the log, behind the answer itself.
-  void tell(const CommandStatus& status) const;
+  /// Writes the answer to the log, behind the answer itself; of a flood of refusals 20 a second.
+  void tell(const CommandStatus& status);
 
   /// True where somebody records the requests and their answers.
   bool isLogged() const { return log_publisher_.getNumSubscribers() > 0; }
@@ -81,6 +82,7 @@ class CommandService : public CommandProcessor {
   virtual ros::AdvertiseServiceOptions serviceOptions() = 0;
 
   std::string service_name_;
+  LogThrottle refusals_{0.05};
   ros::Publisher log_publisher_;
   std::vector<ros::Subscriber> report_subscribers_;
   ros::ServiceServer server_;
