@@ -13,7 +13,7 @@ import rostest
 import support
 from external_command.msg import ActionCommand, CommandStatus, FreeSpaceCommand, Pose
 from external_command.srv import FreeSpace
-from zone_yard import Sweeper, box, percent_of, polygon, swath_of
+from zone_yard import Sweeper, box, percent_of, polygon, swath_of, wait_until_kept
 
 FOLDER = "/tmp/external_command_zone_files_test"
 YARD = box(13, 11)
@@ -91,7 +91,7 @@ class ZoneCoverFilesTest(unittest.TestCase):
 
     def test_a_sweep_that_is_not_sent_leaves_the_file_of_the_one_before(self):
         self.courtyard.sweep_until(YARD, lambda m: percent_of(m) >= 10, ActionCommand.CLEAR_PLANNING)
-        self.courtyard.cover(YARD, resume=True, dry_run=True)  # nothing is about to be written after that
+        wait_until_kept(FOLDER)
         kept, = zone_files()
         before = content_of(kept)
         answers = []
@@ -112,13 +112,14 @@ class ZoneCoverFilesTest(unittest.TestCase):
         garden.wait_until_ready(YARD)
         self.assert_refused(garden.cover(YARD, resume=True), "no earlier run")
         garden.sweep_until(YARD, lambda m: percent_of(m) >= 1)
+        wait_until_kept(FOLDER)
         names = [os.path.basename(path) for path in zone_files()]
         self.assertEqual([re.sub("[0-9a-f]{16}", "*", name) for name in names],
                          ["courtyard-polygon-*.zone", "garden-polygon-*.zone"])
 
     def test_says_that_a_file_is_damaged_and_keeps_it_aside(self):
         self.courtyard.sweep_until(YARD, lambda m: percent_of(m) >= 5, ActionCommand.CLEAR_PLANNING)
-        self.courtyard.cover(YARD, resume=True, dry_run=True)  # nothing is about to be written after that
+        wait_until_kept(FOLDER)
         kept, = zone_files()
         content = content_of(kept)
         with open(kept, "w", encoding="ascii") as file:

@@ -16,7 +16,7 @@ from nav_msgs.msg import OccupancyGrid
 import support
 from external_command.msg import CommandStatus, FreeSpaceCommand, Pose
 from external_command.srv import FreeSpace
-from zone_yard import Sweeper, box, percent_of, polygon, swath_of
+from zone_yard import Sweeper, box, percent_of, polygon, swath_of, wait_until_kept
 
 NODE = "/courtyard/external_command"
 PROGRESS_FOLDER = "/tmp/external_command_zone_cover_test"
@@ -104,6 +104,7 @@ class ZoneCoverTest(unittest.TestCase):
 
     def test_goes_on_after_a_restart_where_it_was_killed(self):
         total, done, percent = self.interrupt_half_way(YARD)
+        wait_until_kept(PROGRESS_FOLDER)
         leftover = os.path.join(PROGRESS_FOLDER, "courtyard-polygon-0.zone.999999999-1.new")
         with open(leftover, "w", encoding="ascii") as file:
             file.write("of a process that was killed while it wrote")

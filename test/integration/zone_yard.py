@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the tests of zone cover share: yards, and a vehicle that sweeps them."""
+import os
 import re
+import time
 
 from geometry_msgs.msg import Point
 
@@ -29,6 +31,17 @@ def percent_of(message):
     """n of "n % covered", -1 where there is none."""
     found = re.search(r"(\d+) % covered", message)
     return int(found.group(1)) if found else -1
+
+
+def wait_until_kept(folder):
+    """Until nothing is left to write: progress goes to its file within a second, or later where the disk is slow."""
+    def is_kept():
+        files = os.listdir(folder)
+        if not files or any(name.endswith(".new") for name in files):
+            return False
+        newest = max(os.stat(os.path.join(folder, name)).st_mtime for name in files)
+        return time.time() - newest > 1.5
+    support.wait_until(is_kept, "the progress is kept", 60.0)
 
 
 class Sweeper:
