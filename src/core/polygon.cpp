@@ -14,9 +14,10 @@ namespace external_command {
 
 namespace {
 
-constexpr double kMinEdge = 1e-3;   // [m]
-constexpr double kTouching = 1e-6;  // [m]
-constexpr double kMinArea = 1e-4;   // [m^2]
+constexpr double kMinEdge = 1e-3;               // [m]
+constexpr double kTouching = 1e-6;              // [m]
+constexpr double kMinArea = 1e-4;               // [m^2]
+constexpr std::size_t kMostPairs = 20'000'000;  // of edges that are compared; a tenth of a second
 
 double signedArea(const std::vector<Point2d>& points) {
   double twice = 0.0;  // relative to the first point: UTM coordinates would eat the digits
@@ -44,7 +45,9 @@ bool edgesMeet(const std::vector<Point2d>& points, std::size_t i, std::size_t j)
 
 /// Two edges that meet, by their first vertices; nullopt for a simple polygon. Sweeps along the axis that the edges are
 /// shorter in and compares those that overlap there: O(n log n) unless most of them do.
-std::optional<std::pair<std::size_t, std::size_t>> meetingEdges(const std::vector<Point2d>& points) {
+/// @throws InvalidRequest  too many do.
+std::optional<std::pair<std::size_t, std::size_t>> meetingEdges(const std::vector<Point2d>& points,
+                                                                const std::string& name) {
   const std::size_t n = points.size();
   Point2d extent = Point2d::Zero();
   for (std::size_t i = 0; i < n; ++i) extent += (points[(i + 1) % n] - points[i]).cwiseAbs();
@@ -52,11 +55,17 @@ std::optional<std::pair<std::size_t, std::size_t>> meetingEdges(const std::vecto
   const auto low = [&](std::size_t i) { return std::min(points[i][axis], points[(i + 1) % n][axis]); };
   const auto high = [&](std::size_t i) { return std::max(points[i][axis], points[(i + 1) % n][axis]); };
   std::vector<std::size_t> order(n), open;
+  std::size_t pairs = 0;
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return low(i) < low(j); });
   for (const std::size_t edge : order) {
     const auto isBehind = [&](std::size_t other) { return high(other) + kTouching < low(edge); };
     open.erase(std::remove_if(open.begin(), open.end(), isBehind), open.end());
+    pairs += open.size();
+    if (pairs > kMostPairs) {
+      throw InvalidRequest(text(name, " is too intricate: of its ", n, " edges more than ", kMostPairs,
+                                " pairs lie side by side; give fewer vertices"));
+    }
     for (const std::size_t other : open) {
       if (edgesMeet(points, edge, other)) return std::minmax(edge, other);
     }
@@ -66,7 +75,7 @@ std::optional<std::pair<std::size_t, std::size_t>> meetingEdges(const std::vecto
 }
 
 void requireSimple(const std::vector<Point2d>& points, const std::string& name) {
-  const auto edges = meetingEdges(points);
+  const auto edges = meetingEdges(points, name);
   if (!edges) return;
   throw InvalidRequest(text(name, " crosses or touches itself: the edge from vertex ", edges->first, " ",
                             at(points[edges->first]), " meets the edge from vertex ", edges->second, " ",

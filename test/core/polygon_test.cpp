@@ -126,6 +126,22 @@ TEST(Polygon, ContainsItsInsideAndItsBorder) {
   }
 }
 
+/// Teeth of 1 km, side by side at 45 degrees: the boxes of all edges overlap.
+Points slantingComb(int teeth) {
+  const Point2d along = unitVector(M_PI / 4.0), across = unitVector(-M_PI / 4.0);
+  Points points;
+  for (int i = 0; i <= 2 * teeth; ++i) points.push_back(0.05 * i * across + (i % 2) * 1000.0 * along);
+  points.push_back(points.back() - 5.0 * along);
+  points.push_back(-5.0 * along);
+  return points;
+}
+
+TEST(Polygon, TakesAnIntricateOneOfAThousandVertices) { EXPECT_NO_THROW(Polygon(slantingComb(500), "roi")); }
+
+TEST(Polygon, RefusesOneTooIntricateToCheckInAMoment) {
+  EXPECT_NE(refusal(slantingComb(5000)).find("roi is too intricate"), std::string::npos);
+}
+
 TEST(Polygon, ContainsWhatTheWindingNumberSays) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> radius(5.0, 20.0), place(-25.0, 25.0);
