@@ -8,6 +8,7 @@
 #include "external_command/ControlPad.h"
 #include "external_command/PlanningPad.h"
 #include "external_command/core/text.h"
+#include "external_command/ros/bounded_subscription.h"
 
 namespace external_command {
 
@@ -78,20 +79,23 @@ void ActionCommandProcessor::subscribe() {
 
   ros::NodeHandle nh(getNodeHandle());
   nh.setCallbackQueue(watch_lane_.queue());
-  const boost::function<void(const Chassis&)> on_chassis = [this](const Chassis& chassis) { onChassis(chassis); };
-  const boost::function<void(const PlanningState&)> on_state = [this](const PlanningState& state) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    record(pending_->onScenario(state.scenario));
+  const auto on_chassis = [this](const ros::MessageEvent<Chassis const>& event) {
+    onChassis(*event.getConstMessage());
   };
-  const boost::function<void(const CommandStatus&)> on_status = [this](const CommandStatus& status) {
+  const auto on_state = [this](const ros::MessageEvent<PlanningState const>& event) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    record(pending_->onScenario(event.getConstMessage()->scenario));
+  };
+  const auto on_status = [this](const ros::MessageEvent<CommandStatus const>& event) {
     const auto motion = context().gate().motion();
     const std::lock_guard<std::mutex> lock(mutex_);
-    record(pending_->onPlannerStatus(status, motion.get()));
+    record(pending_->onPlannerStatus(*event.getConstMessage(), motion.get()));
   };
-  subscribers_.push_back(nh.subscribe<Chassis>(chassis_topic, 10, on_chassis));
-  subscribers_.push_back(nh.subscribe<PlanningState>(state_topic, 10, on_state));
+  const RequestLimits& limits = context().params().requests;
+  subscribers_.push_back(subscribeBounded<Chassis>(nh, chassis_topic, 10, on_chassis, limits));
+  subscribers_.push_back(subscribeBounded<PlanningState>(nh, state_topic, 10, on_state, limits));
   for (const std::string& topic : topicNames("input_command_status_name", "planning/command_status")) {
-    subscribers_.push_back(nh.subscribe<CommandStatus>(topic, 100, on_status));
+    subscribers_.push_back(subscribeBounded<CommandStatus>(nh, topic, 100, on_status, limits, LongTexts::kTaken));
   }
   sent_motions_ = context().sentMotions().connect([this](const SentMotion& motion) {
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -6,7 +6,9 @@
 #include <string_view>
 
 #include "external_command/Chassis.h"
+#include "external_command/core/printable.h"
 #include "external_command/core/text.h"
+#include "external_command/ros/bounded_subscription.h"
 #include "external_command/ros/checks.h"
 
 namespace external_command {
@@ -36,11 +38,11 @@ bool isMd5(std::string_view digits) {
 void checkAny(const Any& any, const std::string& field) {
   if (any.type.empty() && any.md5sum.empty() && any.data.empty()) return;
   if (!isType(any.type)) {
-    throw InvalidRequest(text(field, ".type is '", any.type, "'; it must be package/Type"));
+    throw InvalidRequest(text(field, ".type is ", quoted(any.type), "; it must be package/Type"));
   }
   if (!isMd5(any.md5sum)) {
-    throw InvalidRequest(
-        text(field, ".md5sum is '", any.md5sum, "'; it must be the 32 hexadecimal digits of ", any.type));
+    throw InvalidRequest(text(field, ".md5sum is ", quoted(any.md5sum), "; it must be the 32 hexadecimal digits of ",
+                              printable(any.type)));
   }
 }
 
@@ -71,11 +73,11 @@ void ChassisCommandProcessor::subscribe() {
   parameters().readName("chassis_name", &topic);
   ros::NodeHandle nh(getNodeHandle());
   nh.setCallbackQueue(watch_lane_.queue());
-  const boost::function<void(const Chassis&)> on_chassis = [this](const Chassis& chassis) {
+  const auto on_chassis = [this](const ros::MessageEvent<Chassis const>& event) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    record(pending_->onChassis(chassis.signal));
+    record(pending_->onChassis(event.getConstMessage()->signal));
   };
-  chassis_subscriber_ = nh.subscribe<Chassis>(topic, 10, on_chassis);
+  chassis_subscriber_ = subscribeBounded<Chassis>(nh, topic, 10, on_chassis, context().params().requests);
   timer_ = nh.createSteadyTimer(ros::WallDuration(kTick), [this](const ros::SteadyTimerEvent&) {
     const std::lock_guard<std::mutex> lock(mutex_);
     record(pending_->onTime(now()));

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "external_command/core/text.h"
+#include "external_command/ros/bounded_service.h"
 #include "external_command/ros/parameter_check.h"
 #include "external_command/ros/status.h"
 
@@ -69,7 +70,20 @@ void ExternalCommandProcessComponent::open() {
   status_lane_ = std::make_unique<DedicatedLane>(LaneOptions{"the lane of statuses"});
   ros::NodeHandle nh(getNodeHandle());
   nh.setCallbackQueue(status_lane_->queue());
-  status_server_ = nh.advertiseService(service, &ExternalCommandProcessComponent::serveStatus, this);
+  BoundedServiceCallbacks<GetCommandStatus> callbacks;
+  callbacks.answer = [this](const GetCommandStatus::Request& request, const MessageSize&, const ros::M_string&) {
+    GetCommandStatus::Response response;
+    response.status = context().registry().find(request.command_id);
+    return response;
+  };
+  callbacks.refuse = [](const ros::M_string&) {
+    GetCommandStatus::Response response;
+    response.status = statusFrom(std::current_exception(), 0);
+    return response;
+  };
+  ros::AdvertiseServiceOptions options =
+      boundedService<GetCommandStatus>(service, std::move(callbacks), context().params().requests);
+  status_server_ = nh.advertiseService(options);
   if (!status_server_) {
     throw InternalError(text("service ", nh.resolveName(service),
                              " is advertised by this process already; is the component loaded twice?"));
@@ -122,12 +136,6 @@ std::string ExternalCommandProcessComponent::load(const std::string& type) {
   }
   const std::string reason = startFailureOf(name);
   return reason.empty() ? "nodelet could not load it; the lines above tell why" : reason;
-}
-
-bool ExternalCommandProcessComponent::serveStatus(GetCommandStatus::Request& request,
-                                                  GetCommandStatus::Response& response) {
-  response.status = context().registry().find(request.command_id);
-  return true;
 }
 
 }  // namespace external_command

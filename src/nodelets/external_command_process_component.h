@@ -31,8 +31,6 @@ class ExternalCommandProcessComponent : public CommandProcessor {
   /// Empty where the processor runs, else why it does not.
   std::string load(const std::string& type);
 
-  bool serveStatus(GetCommandStatus::Request& request, GetCommandStatus::Response& response);
-
   nodelet::Loader loader_;
   ros::ServiceServer status_server_;
   std::unique_ptr<DedicatedLane> status_lane_;  // last: joins before the rest goes

@@ -39,8 +39,9 @@ void FreeSpaceCommandProcessor::check(const FreeSpaceCommand& command) const {
   if (!command.parking_spot_pose.has_heading) {
     throw InvalidRequest("parking_spot_pose.has_heading is false; a parking pose needs a heading");
   }
-  checkPolygons(command.non_drivable_roi, "non_drivable_roi");
-  if (!command.drivable_roi.points.empty()) checkPolygon(command.drivable_roi, "drivable_roi");
+  checkPolygons(command.non_drivable_roi, "non_drivable_roi", context().params().requests);
+  if (!command.drivable_roi.points.empty())
+    checkPolygon(command.drivable_roi, "drivable_roi", context().params().requests);
   requireNotNegative(command.target_speed, "target_speed");
   partsOf(command, {});  // polygons that cross themselves
 }

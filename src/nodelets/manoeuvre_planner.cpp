@@ -10,6 +10,7 @@
 
 #include "external_command/core/text.h"
 #include "external_command/free_space/collision_checker.h"
+#include "external_command/ros/bounded_subscription.h"
 
 namespace external_command {
 
@@ -76,13 +77,14 @@ ManoeuvrePlanner::ManoeuvrePlanner(ros::NodeHandle nh, const ParameterReader& re
   reader.read("grid_outside_is_blocked", &grid_params_.outside_is_blocked);
   if (grid_params_.topic.empty()) return;
   nh.setCallbackQueue(context.housekeeping().queue());
-  const boost::function<void(const nav_msgs::OccupancyGrid::ConstPtr&)> keep =
-      [latest = latest_grid_](const nav_msgs::OccupancyGrid::ConstPtr& message) {
-        const std::lock_guard<std::mutex> lock(latest->mutex);
-        latest->message = message;
-        latest->stamp = message->header.stamp.isZero() ? ros::Time::now() : message->header.stamp;
-      };
-  grid_subscriber_ = nh.subscribe<nav_msgs::OccupancyGrid>(grid_params_.topic, 1, keep);
+  const auto keep = [latest = latest_grid_](const ros::MessageEvent<nav_msgs::OccupancyGrid const>& event) {
+    const nav_msgs::OccupancyGrid::ConstPtr message = event.getConstMessage();
+    const std::lock_guard<std::mutex> lock(latest->mutex);
+    latest->message = message;
+    latest->stamp = message->header.stamp.isZero() ? ros::Time::now() : message->header.stamp;
+  };
+  grid_subscriber_ =
+      subscribeBounded<nav_msgs::OccupancyGrid>(nh, grid_params_.topic, 1, keep, context.params().requests);
 }
 
 ManoeuvrePlanner::~ManoeuvrePlanner() = default;

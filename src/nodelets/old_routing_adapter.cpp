@@ -9,6 +9,7 @@
 #include "external_command/RoutingResponse.h"
 #include "external_command/ValetParking.h"
 #include "external_command/core/text.h"
+#include "external_command/ros/bounded_subscription.h"
 #include "external_command/ros/request_arrival.h"
 #include "external_command/ros/status.h"
 
@@ -54,9 +55,16 @@ void OldRoutingAdapter::start() {
 void OldRoutingAdapter::open() {
   ros::NodeHandle nh(getNodeHandle());
   nh.setCallbackQueue(take_lane_.queue());
-  request_subscriber_ = nh.subscribe(request_topic_, kMaxWaiting, &OldRoutingAdapter::take, this);
-  if (!goal_topic_.empty())
-    goal_subscriber_ = nh.subscribe(goal_topic_, kMaxWaiting, &OldRoutingAdapter::takeGoal, this);
+  const auto on_request = [this](const ros::MessageEvent<RoutingRequest const>& event) {
+    take(event.getConstMessage());
+  };
+  const RequestLimits& limits = context().params().requests;
+  request_subscriber_ = subscribeBounded<RoutingRequest>(nh, request_topic_, kMaxWaiting, on_request, limits);
+  if (goal_topic_.empty()) return;
+  const auto on_goal = [this](const ros::MessageEvent<geometry_msgs::PoseStamped const>& event) {
+    takeGoal(*event.getConstMessage());
+  };
+  goal_subscriber_ = subscribeBounded<geometry_msgs::PoseStamped>(nh, goal_topic_, kMaxWaiting, on_goal, limits);
 }
 
 void OldRoutingAdapter::takeGoal(const geometry_msgs::PoseStamped& goal) {

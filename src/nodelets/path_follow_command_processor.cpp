@@ -7,6 +7,7 @@
 
 #include "external_command/core/text.h"
 #include "external_command/core/waypoint_path.h"
+#include "external_command/ros/bounded_subscription.h"
 #include "path_message.h"
 
 namespace external_command {
@@ -67,8 +68,8 @@ void checkBorders(const PathFollowCommand& command) {
   if (!has_boundaries) return;
   requireSameCount(command.left_boundary.size(), command.way_point.size(), "left_boundary");
   requireSameCount(command.right_boundary.size(), command.way_point.size(), "right_boundary");
-  checkPoints(command.left_boundary, 2, RequestLimits::kPathPoints, "left_boundary");
-  checkPoints(command.right_boundary, 2, RequestLimits::kPathPoints, "right_boundary");
+  checkPoints(command.left_boundary, 2, "left_boundary");
+  checkPoints(command.right_boundary, 2, "right_boundary");
 }
 
 /// Where the given borders leave less room than the vehicle's width.
@@ -139,9 +140,8 @@ void PathFollowCommandProcessor::open() {
   if (topic.empty()) return;
   ros::NodeHandle nh(getNodeHandle());
   nh.setCallbackQueue(lane().queue());
-  const boost::function<void(const ros::MessageEvent<nav_msgs::Path const>&)> on_path =
-      [this](const ros::MessageEvent<nav_msgs::Path const>& event) { takePath(event); };
-  path_subscriber_ = nh.subscribe<nav_msgs::Path>(topic, 10, on_path);
+  const auto on_path = [this](const ros::MessageEvent<nav_msgs::Path const>& event) { takePath(event); };
+  path_subscriber_ = subscribeBounded<nav_msgs::Path>(nh, topic, 10, on_path, context().params().requests);
 }
 
 void PathFollowCommandProcessor::takePath(const ros::MessageEvent<nav_msgs::Path const>& event) {
@@ -163,7 +163,7 @@ void PathFollowCommandProcessor::takePath(const ros::MessageEvent<nav_msgs::Path
 }
 
 void PathFollowCommandProcessor::check(const PathFollowCommand& command) const {
-  checkPoints(command.way_point, 2, RequestLimits::kPathPoints, "way_point");
+  checkPoints(command.way_point, 2, "way_point");
   checkBorders(command);
   requireNotNegative(command.target_speed, "target_speed");
   const Pose2d frame = context().vehiclePose().ofFrame(command.header.frame_id);

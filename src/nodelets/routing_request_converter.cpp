@@ -57,7 +57,8 @@ bool hasParkingInfo(const RoutingRequest& request) {
 
 LaneFollowCommand RoutingRequestConverter::toLaneFollow(const RoutingRequest& request) const {
   const std::size_t count = request.waypoint.size();
-  requireSize(count, request.is_start_pose_set ? 2 : 1, RequestLimits::kWayPoints + 1, "waypoint");
+  requireSize(count, request.is_start_pose_set ? 2 : 1, context_->params().requests.max_way_points + 1, "waypoint",
+              "max_way_points");
   LaneFollowCommand command;
   carryOver(request, context_->params().map_frame, &command);
   command.way_point = toPoses(request, firstOf(request), count - 1);
@@ -67,7 +68,8 @@ LaneFollowCommand RoutingRequestConverter::toLaneFollow(const RoutingRequest& re
 
 ValetParkingCommand RoutingRequestConverter::toValetParking(const RoutingRequest& request) const {
   const std::size_t count = request.waypoint.size();
-  requireSize(count, request.is_start_pose_set ? 1 : 0, RequestLimits::kWayPoints + 1, "waypoint");
+  requireSize(count, request.is_start_pose_set ? 1 : 0, context_->params().requests.max_way_points + 1, "waypoint",
+              "max_way_points");
   if (request.parking_info.parking_space_id.empty()) {
     throw InvalidRequest("parking_info has no parking_space_id; give the id of a parking space of the map");
   }

@@ -23,6 +23,7 @@ void SpeedCommandProcessor::check(const SpeedCommand& command) const {
   switch (command.kind) {
     case SpeedCommand::TARGET_SPEED:
       requireNotNegative(command.target_speed, "target_speed");
+      context().params().limits.requireSpeed(command.target_speed);
       if (command.target_speed > 0.0) return;
       throw InvalidRequest(
           "target_speed is 0, which means not given; it must be above 0 (to halt: target_speed_factor 0, or the action "

@@ -107,8 +107,8 @@ void ValetParkingCommandProcessor::check(const ValetParkingCommand& command) con
   if (command.parking_spot_id.empty()) {
     throw InvalidRequest("parking_spot_id is empty; give the id of a parking space of the map");
   }
-  checkWayPoints(command.way_point, command.is_start_pose_set);
-  checkBlackList(command.blacklisted_lane, command.blacklisted_road);
+  checkWayPoints(command.way_point, command.is_start_pose_set, context().params().requests);
+  checkBlackList(command.blacklisted_lane, command.blacklisted_road, context().params().requests);
   requireNotNegative(command.target_speed, "target_speed");
 }
 

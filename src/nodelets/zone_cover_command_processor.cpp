@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "external_command/core/printable.h"
 #include "external_command/core/text.h"
 #include "external_command/map/near_ids.h"
 #include "external_command/routing/area_access.h"
@@ -79,22 +80,22 @@ void ZoneCoverCommandProcessor::check(const ZoneCoverCommand& command) const {
   const bool by_area = !command.zone_cover_area_id.empty();
   const bool by_polygon = !command.drivable_roi.points.empty();
   if (by_area && by_polygon) {
-    throw InvalidRequest(text("zone_cover_area_id is '", command.zone_cover_area_id, "', and drivable_roi has ",
+    throw InvalidRequest(text("zone_cover_area_id is ", quoted(command.zone_cover_area_id), ", and drivable_roi has ",
                               command.drivable_roi.points.size(), " points; give one of them, not both"));
   }
   if (!by_area && !by_polygon) {
     throw InvalidRequest(
         "zone_cover_area_id and drivable_roi are both empty; give the id of an area of the map, or a polygon");
   }
-  checkWayPoints(command.way_point, command.is_start_pose_set);
+  checkWayPoints(command.way_point, command.is_start_pose_set, context().params().requests);
   if (by_polygon && command.way_point.size() > (command.is_start_pose_set ? 1u : 0u)) {
     throw InvalidRequest("way_point needs lanes to drive on; with drivable_roi only a start can be given");
   }
   if (by_polygon && command.is_start_pose_set && !command.way_point[0].has_heading) {
     throw InvalidRequest("way_point[0].has_heading is false; the start of a zone needs a heading");
   }
-  if (by_polygon) checkPolygon(command.drivable_roi, "drivable_roi");
-  checkPolygons(command.non_drivable_roi, "non_drivable_roi");
+  if (by_polygon) checkPolygon(command.drivable_roi, "drivable_roi", context().params().requests);
+  checkPolygons(command.non_drivable_roi, "non_drivable_roi", context().params().requests);
   paramsFor(command);
   requireNotNegative(command.target_speed, "target_speed");
   if (!command.skip_swath.empty() && !command.resume) {
@@ -118,8 +119,8 @@ const Area& ZoneCoverCommandProcessor::areaOf(const ZoneCoverCommand& command) c
   const HdMap& map = context().requireRouter().map();
   const Area* area = map.findArea(command.zone_cover_area_id);
   if (area != nullptr) return *area;
-  throw InvalidRequest(text("zone_cover_area_id '", command.zone_cover_area_id, "' is none of the ", map.areas().size(),
-                            " areas of the map", nearAreaIds(map, command.zone_cover_area_id)));
+  throw InvalidRequest(text("zone_cover_area_id ", quoted(command.zone_cover_area_id), " is none of the ",
+                            map.areas().size(), " areas of the map", nearAreaIds(map, command.zone_cover_area_id)));
 }
 
 CoverageArea ZoneCoverCommandProcessor::zoneOf(const ZoneCoverCommand& command) const {

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "external_command/core/error.h"
+#include "external_command/core/printable.h"
 #include "external_command/core/text.h"
 
 namespace external_command {
@@ -46,7 +47,7 @@ class Reader {
   void expect(const std::string& word) {
     std::string found;
     in_ >> found;
-    if (found != word) throw InvalidRequest(text("there is '", found, "' where '", word, "' should be"));
+    if (found != word) throw InvalidRequest(text("there is ", quoted(found), " where '", word, "' should be"));
   }
 
   template <class Number>

@@ -31,9 +31,11 @@ void requireWithin(double value, double low, double high, const std::string& fie
   throw InvalidRequest(text(field, " is ", value, "; it must lie in [", low, ", ", high, "]"));
 }
 
-void requireSize(std::size_t size, std::size_t low, std::size_t high, const std::string& field) {
+void requireSize(std::size_t size, std::size_t low, std::size_t high, const std::string& field,
+                 const std::string& limit) {
   if (size >= low && size <= high) return;
-  throw InvalidRequest(text(field, " has ", size, " elements; it must have ", low, " to ", high));
+  throw InvalidRequest(text(field, " has ", size, " elements; it must have ", low, " to ", high,
+                            limit.empty() ? "" : " (~requests/" + limit + ")"));
 }
 
 void requireFinite(const Pose& pose, const std::string& field) {
@@ -60,38 +62,39 @@ void requireFresh(const ros::Time& stamp, double max_age) {
   }
 }
 
-void checkWayPoints(const std::vector<Pose>& way_points, bool is_start_pose_set) {
-  requireSize(way_points.size(), 0, RequestLimits::kWayPoints, "way_point");
+void checkWayPoints(const std::vector<Pose>& way_points, bool is_start_pose_set, const RequestLimits& limits) {
+  requireSize(way_points.size(), 0, limits.max_way_points, "way_point", "max_way_points");
   if (is_start_pose_set && way_points.empty()) {
     throw InvalidRequest("way_point is empty, but is_start_pose_set says that its first is the start");
   }
   for (std::size_t i = 0; i < way_points.size(); ++i) requireFinite(way_points[i], text("way_point[", i, "]"));
 }
 
-void checkBlackList(const std::vector<LaneSegment>& lanes, const std::vector<std::string>& roads) {
-  requireSize(lanes.size(), 0, RequestLimits::kBlackList, "blacklisted_lane");
-  requireSize(roads.size(), 0, RequestLimits::kBlackList, "blacklisted_road");
+void checkBlackList(const std::vector<LaneSegment>& lanes, const std::vector<std::string>& roads,
+                    const RequestLimits& limits) {
+  requireSize(lanes.size(), 0, limits.max_black_list, "blacklisted_lane", "max_black_list");
+  requireSize(roads.size(), 0, limits.max_black_list, "blacklisted_road", "max_black_list");
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     requireFinite(lanes[i].start_s, text("blacklisted_lane[", i, "].start_s"));
     requireFinite(lanes[i].end_s, text("blacklisted_lane[", i, "].end_s"));
   }
 }
 
-void checkPoints(const std::vector<geometry_msgs::Point>& points, std::size_t low, std::size_t high,
-                 const std::string& field) {
-  requireSize(points.size(), low, high, field);
+void checkPoints(const std::vector<geometry_msgs::Point>& points, std::size_t low, const std::string& field) {
+  if (points.size() < low) {
+    throw InvalidRequest(text(field, " has ", points.size(), " elements; it must have ", low, " at least"));
+  }
   for (std::size_t i = 0; i < points.size(); ++i) requireFinite(points[i], text(field, "[", i, "]"));
 }
 
-void checkPolygon(const RoiPolygon& polygon, const std::string& field) {
-  checkPoints(polygon.points, 3, RequestLimits::kPolygonPoints, field + ".points");
+void checkPolygon(const RoiPolygon& polygon, const std::string& field, const RequestLimits& limits) {
+  requireSize(polygon.points.size(), 3, limits.max_polygon_points, field + ".points", "max_polygon_points");
+  checkPoints(polygon.points, 3, field + ".points");
 }
 
-void checkPolygons(const std::vector<RoiPolygon>& polygons, const std::string& field) {
-  requireSize(polygons.size(), 0, RequestLimits::kPolygons, field);
-  for (std::size_t i = 0; i < polygons.size(); ++i) {
-    checkPolygon(polygons[i], text(field, "[", i, "]"));
-  }
+void checkPolygons(const std::vector<RoiPolygon>& polygons, const std::string& field, const RequestLimits& limits) {
+  requireSize(polygons.size(), 0, limits.max_polygons, field, "max_polygons");
+  for (std::size_t i = 0; i < polygons.size(); ++i) checkPolygon(polygons[i], text(field, "[", i, "]"), limits);
 }
 
 }  // namespace external_command

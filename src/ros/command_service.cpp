@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "external_command/core/text.h"
+#include "external_command/ros/bounded_subscription.h"
 #include "external_command/ros/log_lane.h"
 #include "external_command/ros/status.h"
 
@@ -23,14 +24,17 @@ void CommandService::stopServing() {
 
 void CommandService::start() {
   parameters().readName("input_command_name", &service_name_);
+  callers_ = readCallerLimits(parameters());
   log_publisher_ = context().advertise<CommandLogEntry>(context().params().log_topic, false);
   ros::NodeHandle nh(getNodeHandle());
   nh.setCallbackQueue(context().reports().queue());
   // The callback outlives this object by no more than the context, which owns all that it uses.
-  const boost::function<void(const CommandStatus&)> report =
-      [context = &context(), name = id()](const CommandStatus& status) { context->takeReport(status, name); };
+  const auto report = [context = &context(), name = id()](const ros::MessageEvent<CommandStatus const>& event) {
+    context->takeReport(*event.getConstMessage(), name);
+  };
   for (const std::string& topic : topicNames("input_command_status_name", "planning/command_status")) {
-    report_subscribers_.push_back(nh.subscribe<CommandStatus>(topic, 100, report));
+    report_subscribers_.push_back(
+        subscribeBounded<CommandStatus>(nh, topic, 100, report, context().params().requests, LongTexts::kTaken));
   }
 }
 
@@ -70,6 +74,7 @@ CommandStatus CommandService::admitAndExecute(const Incoming& request,
     status = statusFrom(std::current_exception(), admission.command.id);
   }
   if (!admission.note.empty()) status.message += "; " + admission.note;
+  status.message = statusMessage(status.message);
   tell(status);
   if (hasEnded(status)) {
     registry.update({admission.command.serial, status});
@@ -87,18 +92,33 @@ CommandStatus CommandService::refuse(std::int64_t wanted_id) {
 
 void CommandService::tell(const CommandStatus& status) {
   const bool is_refused = status.status == CommandStatus::ERROR;
-  const std::string line =
-      text(service_name_, " ", status.command_id, is_refused ? " refused: " : ": ", status.message);
+  const std::string command = text(service_name_, " ", status.command_id);
   if (is_refused) {
-    logLater(LogLevel::kWarn, refusals_, line);
+    const std::uint64_t count = ++refused_;
+    logLater(LogLevel::kWarn, refusals_,
+             text(command, " refused: ", status.message, " (", count, " refused since the start)"));
   } else {
-    logLater(LogLevel::kInfo, line);
+    logLater(LogLevel::kInfo, text(command, ": ", status.message));
   }
 }
 
 void CommandService::log(CommandLogEntry entry) const {
   entry.service = server_.getService();
   log_publisher_.publish(entry);
+}
+
+void CommandService::logRefusal(const std::string& caller, const CommandStatus& status) const {
+  if (!isLogged()) return;
+  CommandLogEntry entry;
+  entry.header.stamp = status.header.stamp;
+  entry.caller = caller;
+  entry.reply = status;
+  log(std::move(entry));
+}
+
+std::string CommandService::callerOf(const ros::M_string& connection_header) {
+  const auto caller = connection_header.find("callerid");
+  return caller == connection_header.end() ? "" : caller->second;
 }
 
 }  // namespace external_command

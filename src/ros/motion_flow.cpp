@@ -118,10 +118,15 @@ void MotionFlow::assemble(double target_speed, bool begins_at_vehicle, MotionPla
     plan->index_shift = static_cast<std::ptrdiff_t>(plan->path.size()) - static_cast<std::ptrdiff_t>(planned);
   }
   if (plan->path.size() == 1) plan->path.push_back(plan->path.front());  // the vehicle is there; still a path
-  context_.params().path_bounds.require(plan->path);
+  const ContextParams& params = context_.params();
+  params.path_bounds.require(plan->path);
   requireMotion(plan->path);
-  if (target_speed > 0.0) {
-    for (ReferencePoint& point : plan->path) point.speed = std::min(point.speed, target_speed);
+  const Pose2d from = plan->start.isKnown() ? plan->start.pose() : plan->path.front().pose();
+  params.limits.requireGoal(from.position(), plan->path.back().pose().position());
+  params.limits.requireInside(plan->path, params.vehicle);
+  for (const double cap : {target_speed, params.limits.max_speed}) {
+    if (cap <= 0.0) continue;
+    for (ReferencePoint& point : plan->path) point.speed = std::min(point.speed, cap);
   }
 }
 
@@ -190,6 +195,7 @@ void MotionFlow::send(const CommandGate::Ticket& ticket, MotionPlan&& plan) cons
 }
 
 double MotionFlow::cappedSpeed(double target_speed, PlanReport* report) const {
+  context_.params().limits.requireSpeed(target_speed);
   const double limit = context_.params().vehicle.max_speed;
   if (target_speed <= limit) return target_speed;
   report->warnings.push_back(text("target_speed ", target_speed, " m/s is above the vehicle's ", limit,

@@ -52,6 +52,13 @@ double toDouble(XmlRpcValue& value, const std::string& name) {
   return static_cast<double>(value);
 }
 
+Point2d toPoint(XmlRpcValue& value, const std::string& name) {
+  if (value.getType() != XmlRpcValue::TypeArray || value.size() != 2) {
+    throw InvalidParameter(text("parameter ", name, " must be a point [x, y]"));
+  }
+  return {toDouble(value[0], name), toDouble(value[1], name)};
+}
+
 template <class Value>
 void readAs(const ParameterReader& reader, const std::string& key, XmlRpcValue::Type type, Value* value) {
   XmlRpcValue found;
@@ -151,6 +158,12 @@ void ParameterReader::readWithin(const std::string& key, int low, int high, int*
   requireRange(nameOf(key), low, high, *value);
 }
 
+void ParameterReader::readSize(const std::string& key, int low, int high, std::size_t* value) const {
+  int number = static_cast<int>(*value);
+  readWithin(key, low, high, &number);
+  *value = static_cast<std::size_t>(number);
+}
+
 void ParameterReader::readName(const std::string& key, std::string* value) const {
   const bool may_be_empty = value->empty();
   read(key, value);
@@ -242,15 +255,46 @@ ReferencePathParams readReferencePathParams(const ParameterReader& reader) {
   return params;
 }
 
+RequestLimits readRequestLimits(const ParameterReader& reader) {
+  RequestLimits limits;
+  reader.readSize("max_bytes", 1000, 1000000000, &limits.max_bytes);
+  reader.readSize("max_message_bytes", 1000, 1000000000, &limits.max_message_bytes);
+  reader.readSize("max_points", 1, 10000000, &limits.max_points);
+  reader.readSize("max_text", 10, 1000000, &limits.max_text);
+  reader.readSize("max_way_points", 1, 100000, &limits.max_way_points);
+  reader.readSize("max_black_list", 1, 1000000, &limits.max_black_list);
+  reader.readSize("max_polygons", 1, 100000, &limits.max_polygons);
+  reader.readSize("max_polygon_points", 3, 1000000, &limits.max_polygon_points);
+  return limits;
+}
+
 PathBounds readPathBounds(const ParameterReader& reader) {
   PathBounds bounds;
-  int max_points = static_cast<int>(bounds.max_points);
   reader.read("max_path_length", &bounds.max_length);
   reader.read("max_path_start_distance", &bounds.max_start_distance);
-  reader.readWithin("max_path_points", 2, 10000000, &max_points);
-  bounds.max_points = static_cast<std::size_t>(max_points);
+  reader.readSize("max_path_points", 2, 10000000, &bounds.max_points);
   reader.validate(bounds);
   return bounds;
+}
+
+DriveLimits readDriveLimits(const ParameterReader& reader) {
+  DriveLimits limits;
+  reader.read("max_goal_distance", &limits.max_goal_distance);
+  reader.read("max_speed", &limits.max_speed);
+  reader.validate(limits);
+  XmlRpcValue fence;
+  if (!reader.raw("geofence", &fence)) return limits;
+  const std::string name = reader.nameOf("geofence");
+  if (fence.getType() != XmlRpcValue::TypeArray) refuseType(name, "a list of points [x, y]", fence.getType());
+  if (fence.size() == 0) return limits;
+  std::vector<Point2d> points;
+  for (int i = 0; i < fence.size(); ++i) points.push_back(toPoint(fence[i], text(name, "[", i, "]")));
+  try {
+    limits.geofence.emplace(points, name);
+  } catch (const InvalidRequest& error) {
+    throw InvalidParameter(text("parameter ", error.what()));
+  }
+  return limits;
 }
 
 MapOrigin readMapOrigin(const ParameterReader& reader) {

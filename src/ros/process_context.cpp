@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "external_command/ros/process_context.h"
 
+#include <malloc.h>
 #include <ros/console.h>
 
 #include "external_command/core/error.h"
@@ -16,6 +17,7 @@ namespace {
 
 constexpr double kSilenceCheckPeriod = 0.5;  // [s]
 constexpr double kMotionPeriod = 0.1;        // [s]
+constexpr double kMemoryPeriod = 3.0;        // without a request, after which memory is given back [s]
 
 std::shared_ptr<const Router> routerOf(const ContextParams& params) {
   if (params.map_file.empty()) return nullptr;
@@ -77,6 +79,7 @@ ContextParams readContextParams(const ParameterReader& reader) {
   params.reports.may_finish = params.motion_watch.arrival != ArrivalSource::kPose;
   reader.readWithin("planning_threads", 0, 256, &params.planning.threads);
   reader.readWithin("planning_queue", 0, 1000, &params.planning.waiting);
+  params.requests = readRequestLimits(reader.within("requests"));
   reader.readName("output_command_status_name", &params.status_topic);
   reader.readName("command_log_name", &params.log_topic);
   reader.readName("routing_response_name", &params.routing_response_topic);
@@ -89,6 +92,7 @@ ContextParams readContextParams(const ParameterReader& reader) {
   params.lane_way = readLaneWayParams(routing);
   params.reference_path = readReferencePathParams(routing);
   params.path_bounds = readPathBounds(routing);
+  params.limits = readDriveLimits(reader.within("limits"));
   return params;
 }
 
@@ -124,18 +128,20 @@ ProcessContext::ProcessContext(const ros::NodeHandle& nh, const ros::NodeHandle&
       reports_(LaneOptions{"the lane of the vehicle's reports"}) {
   publishOrigin(parameters, router_.get());
   master_watch_->keepParameters(parameters.getNamespace());
-  const auto every = [&](double period, const std::function<void()>& job) {
+  const auto every = [&](double period, DedicatedLane& lane, const std::function<void()>& job) {
     ros::SteadyTimerOptions options;
     options.period = ros::WallDuration(period);
     options.callback = [job](const ros::SteadyTimerEvent&) { job(); };
-    options.callback_queue = reports_.queue();
+    options.callback_queue = lane.queue();
     return nh_.createSteadyTimer(options);
   };
-  silence_timer_ = every(kSilenceCheckPeriod, [this] { registry_.noteSilence(params_.planner_silence_timeout); });
-  motion_timer_ = every(kMotionPeriod, [this] { motion_watch_.look(); });
+  memory_timer_ = every(kMemoryPeriod, housekeeping_, [this] { giveBackMemory(); });
+  silence_timer_ = every(kSilenceCheckPeriod, reports_, [this] { registry_.noteSilence(params_.planner_silence_timeout); });
+  motion_timer_ = every(kMotionPeriod, reports_, [this] { motion_watch_.look(); });
 }
 
-void ProcessContext::takeReport(const CommandStatus& report, const std::string& processor) {
+void ProcessContext::takeReport(CommandStatus report, const std::string& processor) {
+  report.message = statusMessage(report.message);
   if (registry_.report(report, processor)) return;
   logLater(LogLevel::kWarn, odd_reports_,
            text("a report about command ", report.command_id, " is ignored: its status is ",
@@ -145,6 +151,14 @@ void ProcessContext::takeReport(const CommandStatus& report, const std::string& 
 void ProcessContext::showMotionAgain() {
   const auto motion = gate_.motion();
   if (motion) gate_.showAgain(motion->command.serial, motion_watch_.restOf(*motion));
+}
+
+void ProcessContext::giveBackMemory() {
+  const ArrivalNumber arrival = gate_.arrive();
+  const bool is_quiet = arrival == last_arrival_ + 1;
+  last_arrival_ = arrival;
+  if (is_quiet && has_memory_) malloc_trim(0);
+  has_memory_ = !is_quiet;
 }
 
 const Router& ProcessContext::requireRouter() const {

@@ -3,7 +3,15 @@
 
 #include <ros/time.h>
 
+#include "external_command/core/printable.h"
+#include "external_command/core/text.h"
+
 namespace external_command {
+
+std::string statusMessage(const std::string& message) {
+  constexpr std::size_t kMost = 2000;  // [bytes]; a thousand of them are kept
+  return printable(message, kMost);
+}
 
 CommandStatus makeStatus(std::int64_t command_id, std::uint8_t status, ErrorCode code, const std::string& message) {
   CommandStatus made;
@@ -11,7 +19,7 @@ CommandStatus makeStatus(std::int64_t command_id, std::uint8_t status, ErrorCode
   made.command_id = command_id;
   made.status = status;
   made.error_code = static_cast<std::uint16_t>(code);
-  made.message = message;
+  made.message = statusMessage(message);
   return made;
 }
 

@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "external_command/core/text.h"
+#include "external_command/ros/bounded_subscription.h"
 #include "external_command/ros/log_lane.h"
 
 namespace external_command {
@@ -38,9 +39,10 @@ TransformFeed::~TransformFeed() {
 }
 
 void TransformFeed::subscribe(const std::string& topic, bool is_static, ros::Subscriber* subscriber) {
-  const boost::function<void(const tf2_msgs::TFMessage::ConstPtr&)> callback =
-      [this, is_static](const tf2_msgs::TFMessage::ConstPtr& message) { take(*message, is_static); };
-  *subscriber = nh_.subscribe<tf2_msgs::TFMessage>(topic, kQueueSize, callback);
+  const auto callback = [this, is_static](const ros::MessageEvent<tf2_msgs::TFMessage const>& event) {
+    take(*event.getConstMessage(), is_static);
+  };
+  *subscriber = subscribeBounded<tf2_msgs::TFMessage>(nh_, topic, kQueueSize, callback, {});
 }
 
 void TransformFeed::take(const tf2_msgs::TFMessage& message, bool is_static) {

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <vector>
 
+#include "external_command/core/printable.h"
 #include "external_command/core/text.h"
 #include "external_command/ros/frame_id.h"
 
@@ -19,10 +20,8 @@ constexpr double kMaxNormError = 1e-2;   // of a rotation's squared length; as t
 constexpr double kMaxBackStep = 0.01;    // of ROS time that is no jump [s]
 constexpr double kForgetPause = 0.1;     // between two times that tf2's buffer is made anew for the sake of a frame [s]
 
-std::string shortName(const std::string& name) { return name.size() <= 60 ? name : name.substr(0, 60) + "..."; }
-
 std::string edgeName(const geometry_msgs::TransformStamped& transform) {
-  return text("'", shortName(transform.header.frame_id), "' -> '", shortName(transform.child_frame_id), "'");
+  return text(quoted(transform.header.frame_id), " -> ", quoted(transform.child_frame_id));
 }
 
 std::string frameProblem(const geometry_msgs::TransformStamped& transform) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "external_command/core/error.h"
+#include "external_command/core/printable.h"
 #include "external_command/core/text.h"
 #include "external_command/ros/frame_id.h"
 
@@ -75,8 +76,8 @@ Pose2d VehiclePose::ofFrame(const std::string& given) const {
   try {
     return toPose(feed_.store().lookup(map_frame_, frame).transform);
   } catch (const tf2::TransformException& error) {
-    throw InvalidRequest(text("header.frame_id '", frame, "' cannot be transformed to '", map_frame_,
-                              "': ", error.what(), "; leave it empty for '", map_frame_, "'"));
+    throw InvalidRequest(text("header.frame_id ", quoted(frame), " cannot be transformed to '", map_frame_,
+                              "': ", printable(error.what(), 300), "; leave it empty for '", map_frame_, "'"));
   }
 }
 

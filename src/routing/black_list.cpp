@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "external_command/core/printable.h"
 #include "external_command/core/text.h"
 #include "external_command/map/near_ids.h"
 
@@ -14,7 +15,7 @@ LaneRange rangeOf(const HdMap& map, const BlackListedLane& part, const std::stri
   const auto lane = map.findLane(part.id);
   if (!lane)
     throw InvalidRequest(
-        text(name, " names lane '", part.id, "', which the map does not have", nearLaneIds(map, part.id)));
+        text(name, " names lane ", quoted(part.id), ", which the map does not have", nearLaneIds(map, part.id)));
   const double length = map.lane(*lane).length();
   if (part.start_s == 0.0 && part.end_s == 0.0) return {*lane, 0.0, length};
   if (!(part.start_s <= part.end_s && part.start_s <= length && part.end_s >= 0.0)) {  // catches NaN
@@ -41,8 +42,8 @@ std::vector<LaneRange> blackList(const HdMap& map, const std::vector<BlackListed
   }
   for (std::size_t i = 0; i < roads.size(); ++i) {
     if (!map.hasRoad(roads[i])) {
-      throw InvalidRequest(text("blacklisted_road[", i, "] names road '", roads[i], "', which the map does not have",
-                                nearRoadIds(map, roads[i])));
+      throw InvalidRequest(text("blacklisted_road[", i, "] names road ", quoted(roads[i]),
+                                ", which the map does not have", nearRoadIds(map, roads[i])));
     }
     for (const LaneIndex lane : map.lanesOfRoad(roads[i])) add(map, {lane, 0.0, map.lane(lane).length()}, &ranges);
   }

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <limits>
 
+#include "external_command/core/printable.h"
 #include "external_command/core/text.h"
 #include "external_command/map/near_ids.h"
 #include "external_command/routing/area_access.h"
@@ -127,7 +128,8 @@ std::vector<LanePoint> LaneWayTool::fromPose(const Point2d& point, const std::op
 LanePoint LaneWayTool::fromLane(const std::string& id, double s, const std::string& name) const {
   const auto index = map_.findLane(id);
   if (!index)
-    throw InvalidRequest(text(name, " names lane '", id, "', which the map does not have", nearLaneIds(map_, id)));
+    throw InvalidRequest(
+        text(name, " names lane ", quoted(id), ", which the map does not have", nearLaneIds(map_, id)));
   const Lane& lane = map_.lane(*index);
   if (!lane.isDrivable()) throw InvalidRequest(text(name, " names lane ", id, ", which is not for driving"));
   if (!(s >= -kBesideLane && s <= lane.length() + kBesideLane)) {  // catches NaN
@@ -178,10 +180,11 @@ std::vector<LanePoint> LaneWayTool::fromParkingSpace(const std::string& id, bool
   const ParkingSpace* space = map_.findParkingSpace(id);
   const std::string why_not = map_.whyUnusable(id);
   if (space == nullptr && !why_not.empty()) {
-    throw InvalidRequest(text("parking_spot_id '", id, "' cannot be used: in the map its polygon is wrong, ", why_not));
+    throw InvalidRequest(
+        text("parking_spot_id ", quoted(id), " cannot be used: in the map its polygon is wrong, ", why_not));
   }
   if (space == nullptr) {
-    throw InvalidRequest(text("parking_spot_id '", id, "' is none of the map's ", map_.parkingSpaces().size(),
+    throw InvalidRequest(text("parking_spot_id ", quoted(id), " is none of the map's ", map_.parkingSpaces().size(),
                               " parking spaces", nearParkingSpaceIds(map_, id)));
   }
   Point2d middle = Point2d::Zero();

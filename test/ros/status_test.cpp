@@ -69,7 +69,7 @@ TEST(Checks, AcceptWhatIsInRange) {
   EXPECT_NO_THROW(requireFinite(1.0, "x"));
   EXPECT_NO_THROW(requireNotNegative(0.0, "target_speed"));
   EXPECT_NO_THROW(requireWithin(0.5, 0.0, 1.0, "target_speed_factor"));
-  EXPECT_NO_THROW(checkWayPoints({}, false));
+  EXPECT_NO_THROW(checkWayPoints({}, false, {}));
 }
 
 TEST(Checks, NameFieldValueAndExpectation) {
@@ -79,9 +79,9 @@ TEST(Checks, NameFieldValueAndExpectation) {
   EXPECT_NE(refusalOf([] { requireWithin(std::nan(""), 0.0, 1.0, "factor"); }), "");
   Pose pose;
   pose.y = std::nan("");
-  EXPECT_EQ(refusalOf([&] { checkWayPoints({Pose(), pose}, false); }), "way_point[1].y is nan; it must be finite");
-  EXPECT_NE(refusalOf([] { checkWayPoints({}, true); }).find("is_start_pose_set"), std::string::npos);
-  EXPECT_NE(refusalOf([] { checkWayPoints(std::vector<Pose>(1001), false); }).find("1001"), std::string::npos);
+  EXPECT_EQ(refusalOf([&] { checkWayPoints({Pose(), pose}, false, {}); }), "way_point[1].y is nan; it must be finite");
+  EXPECT_NE(refusalOf([] { checkWayPoints({}, true, {}); }).find("is_start_pose_set"), std::string::npos);
+  EXPECT_NE(refusalOf([] { checkWayPoints(std::vector<Pose>(1001), false, {}); }).find("1001"), std::string::npos);
 }
 
 TEST(Checks, RefuseStampsFarFromNow) {

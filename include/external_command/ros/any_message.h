@@ -8,7 +8,9 @@
 
 #include "external_command/Any.h"
 #include "external_command/core/error.h"
+#include "external_command/core/printable.h"
 #include "external_command/core/text.h"
+#include "external_command/ros/message_size.h"
 
 namespace external_command {
 
@@ -30,17 +32,17 @@ template <class Message>
 Message unpackAny(const Any& any) {
   const std::string type = ros::message_traits::datatype<Message>();
   const std::string md5sum = ros::message_traits::md5sum<Message>();
-  if (any.type != type) throw InvalidRequest(text("Any holds a ", any.type, "; expected a ", type));
+  if (any.type != type) throw InvalidRequest(text("Any holds a ", printable(any.type), "; expected a ", type));
   if (any.md5sum != md5sum) {
-    throw InvalidRequest(text("Any holds a ", type, " with md5 ", any.md5sum, "; this program was built with ", md5sum,
-                              ": rebuild both from the same definition"));
+    throw InvalidRequest(text("Any holds a ", type, " with md5 ", printable(any.md5sum),
+                              "; this program was built with ", md5sum, ": rebuild both from the same definition"));
   }
   Message message;
   try {
+    sizeOfMessage<Message>(any.data.data(), any.data.size());
     // The stream only reads; roscpp's interface wants a mutable pointer.
     ros::serialization::IStream stream(const_cast<std::uint8_t*>(any.data.data()), any.data.size());
     ros::serialization::deserialize(stream, message);
-    if (stream.getLength() != 0) throw InvalidRequest(text(stream.getLength(), " bytes too many"));
   } catch (const std::exception& error) {
     throw InvalidRequest(text("Any holds a damaged ", type, " of ", any.data.size(), " bytes: ", error.what()));
   }

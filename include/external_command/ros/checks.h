@@ -10,24 +10,17 @@
 #include "external_command/LaneSegment.h"
 #include "external_command/Pose.h"
 #include "external_command/RoiPolygon.h"
+#include "external_command/ros/request_limits.h"
 
 namespace external_command {
-
-/// Sizes of requests beyond which they are refused.
-struct RequestLimits {
-  static constexpr std::size_t kWayPoints = 1000;
-  static constexpr std::size_t kPathPoints = 100000;
-  static constexpr std::size_t kBlackList = 10000;
-  static constexpr std::size_t kPolygons = 1000;
-  static constexpr std::size_t kPolygonPoints = 10000;
-  static constexpr double kCoordinate = 1e9;  ///< to either side [m]; no map of the earth reaches further
-};
 
 /// Each throws InvalidRequest with the field's name, its value and what was expected.
 void requireFinite(double value, const std::string& field);
 void requireNotNegative(double value, const std::string& field);
 void requireWithin(double value, double low, double high, const std::string& field);
-void requireSize(std::size_t size, std::size_t low, std::size_t high, const std::string& field);
+/// @param limit  name of the parameter that sets `high`, where there is one.
+void requireSize(std::size_t size, std::size_t low, std::size_t high, const std::string& field,
+                 const std::string& limit = "");
 void requireFinite(const Pose& pose, const std::string& field);                   ///< and within kCoordinate
 void requireFinite(const geometry_msgs::Point& point, const std::string& field);  ///< the same; z is not looked at
 
@@ -35,11 +28,11 @@ void requireFinite(const geometry_msgs::Point& point, const std::string& field);
 /// @throws StaleRequest  the stamp differs from now by more than `max_age` [s], to either side.
 void requireFresh(const ros::Time& stamp, double max_age);
 
-void checkWayPoints(const std::vector<Pose>& way_points, bool is_start_pose_set);
-void checkBlackList(const std::vector<LaneSegment>& lanes, const std::vector<std::string>& roads);
-void checkPoints(const std::vector<geometry_msgs::Point>& points, std::size_t low, std::size_t high,
-                 const std::string& field);
-void checkPolygon(const RoiPolygon& polygon, const std::string& field);
-void checkPolygons(const std::vector<RoiPolygon>& polygons, const std::string& field);
+void checkWayPoints(const std::vector<Pose>& way_points, bool is_start_pose_set, const RequestLimits& limits);
+void checkBlackList(const std::vector<LaneSegment>& lanes, const std::vector<std::string>& roads,
+                    const RequestLimits& limits);
+void checkPoints(const std::vector<geometry_msgs::Point>& points, std::size_t low, const std::string& field);
+void checkPolygon(const RoiPolygon& polygon, const std::string& field, const RequestLimits& limits);
+void checkPolygons(const std::vector<RoiPolygon>& polygons, const std::string& field, const RequestLimits& limits);
 
 }  // namespace external_command

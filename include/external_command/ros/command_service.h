@@ -4,6 +4,7 @@
 #include <ros/advertise_service_options.h>
 #include <ros/service_server.h>
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "external_command/CommandLogEntry.h"
+#include "external_command/ros/caller_limits.h"
 #include "external_command/ros/command_processor.h"
 #include "external_command/ros/log_lane.h"
 
@@ -78,10 +80,22 @@ class CommandService : public CommandProcessor {
   bool isLogged() const { return log_publisher_.getNumSubscribers() > 0; }
   void log(CommandLogEntry entry) const;
 
+  /// Logs a request that could not be read.
+  void logRefusal(const std::string& caller, const CommandStatus& status) const;
+
+  /// By the parameters `enabled` and `allowed_callers`.
+  /// @throws InvalidRequest  the service is switched off, or not meant for the node `caller`.
+  void requireAllowed(const std::string& caller) const { callers_.require(caller, service_name_); }
+
+  /// The node that calls; empty where it does not say.
+  static std::string callerOf(const ros::M_string& connection_header);
+
  private:
   virtual ros::AdvertiseServiceOptions serviceOptions() = 0;
 
   std::string service_name_;
+  CallerLimits callers_;
+  std::atomic<std::uint64_t> refused_{0};
   LogThrottle refusals_{0.05};
   ros::Publisher log_publisher_;
   std::vector<ros::Subscriber> report_subscribers_;

@@ -20,7 +20,7 @@ class MotionFlow {
   void addRoute(const RoutingTask& task, double target_speed, const CancelToken& cancel, MotionPlan* plan) const;
 
   /// Fills what is left of the path; its speeds are still caps.
-  /// @throws InvalidRequest  the path is too large.
+  /// @throws InvalidRequest  the path is too large, or leads beyond what ContextParams::limits allow.
   /// @param begins_at_vehicle  the way to plan.start() is put in front of it.
   void assemble(double target_speed, bool begins_at_vehicle, MotionPlan* plan) const;
 
@@ -38,6 +38,7 @@ class MotionFlow {
   void send(const CommandGate::Ticket& ticket, MotionPlan&& plan) const;
 
   /// The vehicle's limit where `target_speed` exceeds it, with a warning in `report`.
+  /// @throws InvalidRequest  it exceeds ContextParams::limits.
   double cappedSpeed(double target_speed, PlanReport* report) const;
 
  private:

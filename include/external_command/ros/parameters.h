@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "external_command/core/drive_limits.h"
 #include "external_command/core/error.h"
 #include "external_command/core/path_bounds.h"
 #include "external_command/core/text.h"
 #include "external_command/core/vehicle.h"
 #include "external_command/map/map_reader.h"
+#include "external_command/ros/request_limits.h"
 #include "external_command/routing/lane_way_tool.h"
 #include "external_command/routing/reference_path.h"
 
@@ -33,6 +35,7 @@ class ParameterReader {
   /// @throws InvalidParameter  also where it does not; the text names the range.
   void readWithin(const std::string& key, double low, double high, double* value) const;
   void readWithin(const std::string& key, int low, int high, int* value) const;
+  void readSize(const std::string& key, int low, int high, std::size_t* value) const;
 
   /// Names of topics and services, relative ones as they are. An empty one means none, and is taken only where
   /// `*value` is empty before.
@@ -76,7 +79,10 @@ MapParams readMapParams(const ParameterReader& reader);
 RouterParams readRouterParams(const ParameterReader& reader);
 LaneWayParams readLaneWayParams(const ParameterReader& reader);
 ReferencePathParams readReferencePathParams(const ParameterReader& reader);
+RequestLimits readRequestLimits(const ParameterReader& reader);
 PathBounds readPathBounds(const ParameterReader& reader);
+
+DriveLimits readDriveLimits(const ParameterReader& reader);
 
 /// `map_origin`: "none" (default), "auto", or [x, y] in the map's coordinates [m].
 MapOrigin readMapOrigin(const ParameterReader& reader);

@@ -18,6 +18,7 @@
 #include "external_command/ros/motion_watch.h"
 #include "external_command/ros/parameters.h"
 #include "external_command/ros/planning_slots.h"
+#include "external_command/ros/request_limits.h"
 #include "external_command/ros/vehicle_pose.h"
 
 namespace external_command {
@@ -37,6 +38,7 @@ struct ContextParams {
   ReportRules reports;
   MotionWatchParams motion_watch;
   PlanningLimits planning;
+  RequestLimits requests;
   std::string status_topic = "external_command/status";
   std::string log_topic = "external_command/log";
   std::string routing_response_topic = "routing_response";
@@ -47,6 +49,7 @@ struct ContextParams {
   LaneWayParams lane_way;
   ReferencePathParams reference_path;
   PathBounds path_bounds;
+  DriveLimits limits;
 };
 
 /// @throws InvalidParameter
@@ -91,7 +94,7 @@ class ProcessContext {
   void showMotionAgain();
 
   /// A report of the vehicle's about a command of `processor`.
-  void takeReport(const CommandStatus& report, const std::string& processor);
+  void takeReport(CommandStatus report, const std::string& processor);
 
   /// For the vehicle's reports. Nothing that could wait runs there.
   DedicatedLane& reports() { return reports_; }
@@ -121,6 +124,10 @@ class ProcessContext {
 
   static constexpr int kQueueSize = 100;
 
+  /// What plans leave behind in the allocator's arenas goes back to the system, in a quiet moment: an arena is locked
+  /// for some milliseconds then.
+  void giveBackMemory();
+
   const ContextParams params_;
   const std::shared_ptr<MasterWatch> master_watch_ = MasterWatch::ofProcess();
   ros::NodeHandle nh_;
@@ -138,7 +145,9 @@ class ProcessContext {
   Display display_;
   LogThrottle odd_reports_{10.0};
   DedicatedLane housekeeping_, reports_;  // after all that their callbacks use, before what is bound to their queues
-  ros::SteadyTimer silence_timer_, motion_timer_;
+  ArrivalNumber last_arrival_ = 0;  ///< giveBackMemory() looked at it
+  bool has_memory_ = false;         ///< that was not given back since
+  ros::SteadyTimer silence_timer_, motion_timer_, memory_timer_;
 };
 
 }  // namespace external_command

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "external_command/ros/any_message.h"
+#include "external_command/ros/bounded_service.h"
 #include "external_command/ros/command_service.h"
 #include "external_command/ros/request_arrival.h"
 #include "external_command/ros/status.h"
@@ -54,22 +55,27 @@ class ServiceCommandProcessor : public CommandService {
   /// Does with a command that came another way what the service does: check, admit, execute, record, log.
   /// To be called on the processor's lane.
   Response process(const Command& request, const std::string& caller) {
-    return process(request, caller, arrivalOfThisCallback());
+    return process(request, Origin{caller, arrivalOfThisCallback(), {}});
   }
 
  private:
-  using Event = ros::ServiceEvent<Request, Response>;
+  /// Where a request comes from, and how large it is.
+  struct Origin {
+    std::string caller;
+    ArrivalNumber arrival = 0;
+    MessageSize size;
+  };
 
-  Response process(const Command& request, const std::string& caller, ArrivalNumber arrival) {
+  Response process(const Command& request, const Origin& origin) {
     const ros::Time begin = ros::Time::now();
     const ros::SteadyTime started = ros::SteadyTime::now();
     Response response;
-    response.status = answer(request, arrival, &response);
+    response.status = answer(request, origin, &response);
 
     if (!isLogged()) return response;
     CommandLogEntry entry;
     entry.header.stamp = begin;
-    entry.caller = caller;
+    entry.caller = origin.caller;
     entry.request = packAny(request);
     entry.reply = response.status;
     entry.duration = (ros::SteadyTime::now() - started).toSec();
@@ -78,23 +84,32 @@ class ServiceCommandProcessor : public CommandService {
   }
 
   ros::AdvertiseServiceOptions serviceOptions() final {
-    ros::AdvertiseServiceOptions options;
-    const boost::function<bool(Event&)> callback = [this](Event& event) { return serve(event); };
-    options.initBySpecType<Event>(serviceName(), callback);
-    return options;
+    BoundedServiceCallbacks<Service> callbacks;
+    callbacks.answer = [this](const Request& request, const MessageSize& size, const ros::M_string& header) {
+      const ArrivalNumber arrival = earlierArrival(header, context().gate(), arrivalOfThisCallback());
+      return process(request.command, Origin{callerOf(header), arrival, size});
+    };
+    callbacks.refuse = [this](const ros::M_string& header) {
+      Response response;
+      response.status = refuse(0);
+      logRefusal(callerOf(header), response.status);
+      return response;
+    };
+    return boundedService<Service>(serviceName(), std::move(callbacks), context().params().requests);
   }
 
-  bool serve(Event& event) {
-    const ArrivalNumber arrival =
-        earlierArrival(event.getConnectionHeader(), context().gate(), arrivalOfThisCallback());
-    event.getResponse() = process(event.getRequest().command, event.getCallerName(), arrival);
-    return true;
+  /// What always acts is refused for nothing that has no part in it.
+  void requireWithinLimits(const Origin& origin) const {
+    requireAllowed(origin.caller);
+    context().params().requests.requireTexts(origin.size, ros::message_traits::definition<Request>());
   }
 
-  CommandStatus answer(const Command& request, ArrivalNumber arrival, Response* response) {
+  CommandStatus answer(const Command& request, const Origin& origin, Response* response) {
     try {
+      const bool acts_always = actsAlways(request);
+      if (!acts_always) requireWithinLimits(origin);
       check(request);
-      const Incoming incoming{request.command_id, digestOf(request), actsAlways(request), arrival};
+      const Incoming incoming{request.command_id, digestOf(request), acts_always, origin.arrival};
       return admitAndExecute(incoming, [&](const AdmittedCommand& admitted) {
         Command command = request;
         command.command_id = admitted.id;

@@ -9,6 +9,9 @@
 
 namespace external_command {
 
+/// A message as statuses have it: fit to be shown, and of 2,000 bytes at most.
+std::string statusMessage(const std::string& message);
+
 /// A status stamped now. `status` is one of CommandStatus's RUNNING, FINISHED, ERROR, UNKNOWN.
 CommandStatus makeStatus(std::int64_t command_id, std::uint8_t status, ErrorCode code, const std::string& message);
 
