@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-from distutils.core import setup
+from setuptools import setup
 
 from catkin_pkg.python_setup import generate_distutils_setup
 

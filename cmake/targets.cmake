@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Two helpers, so that each target takes a few lines.
+# Helpers, so that each target takes a few lines. The commands of tests are run by a shell, and what catkin, rostest and
+# roslaunch register leaves out the quotes that a path with spaces needs: these helpers register the same, quoted.
 
 set(EC_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)
 
@@ -19,25 +20,70 @@ function(ec_add_library name)
     RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
 endfunction()
 
+# ec_quote_python_install()
+# To be called after catkin_python_setup(), whose script hands the build folder to setup.py without quotes.
+function(ec_quote_python_install)
+  set(script ${CMAKE_CURRENT_BINARY_DIR}/catkin_generated/python_distutils_install.sh)
+  file(READ ${script} text)
+  string(REPLACE "--egg-base ${CMAKE_CURRENT_BINARY_DIR}" "--egg-base \"${CMAKE_CURRENT_BINARY_DIR}\"" text "${text}")
+  file(WRITE ${script} "${text}")
+endfunction()
+
+# ec_add_test(KIND NAME RESULT COMMAND words... [DEPENDENCIES targets...])
+# Registers a test that writes RESULT, a JUnit file, into the folder of results.
+function(ec_add_test kind name result)
+  cmake_parse_arguments(ARG "" "" "COMMAND;DEPENDENCIES" ${ARGN})
+  list(TRANSFORM ARG_COMMAND REPLACE "^.+$" "\"\\0\"")
+  string(JOIN " " command ${ARG_COMMAND})
+  catkin_run_tests_target(${kind} ${name} ${result} COMMAND "${command}" DEPENDENCIES ${ARG_DEPENDENCIES})
+endfunction()
+
+set(EC_TEST_RESULTS_DIR ${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME})
+
 # ec_add_gtest(NAME SOURCES... LIBRARIES libs...)
 # A gtest without a ROS master. Data beside the checkout is found by EC_SHARED_DIR.
 function(ec_add_gtest name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
-  catkin_add_gtest(${name} ${ARG_SOURCES} ${PROJECT_SOURCE_DIR}/test/support/gtest_main.cpp)
+  catkin_add_executable_with_gtest(${name} ${ARG_SOURCES} ${PROJECT_SOURCE_DIR}/test/support/gtest_main.cpp
+    EXCLUDE_FROM_ALL)
   target_compile_features(${name} PRIVATE cxx_std_17)
   target_compile_options(${name} PRIVATE ${EC_WARNINGS})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test)
   target_compile_definitions(${name} PRIVATE
     EC_SOURCE_DIR="${PROJECT_SOURCE_DIR}" EC_SHARED_DIR="${EC_SHARED_DIR}")
   target_link_libraries(${name} ${ARG_LIBRARIES})
+  add_dependencies(tests ${name})
+  ec_add_test(gtest ${name} gtest-${name}.xml DEPENDENCIES ${name}
+    COMMAND $<TARGET_FILE:${name}> --gtest_output=xml:${EC_TEST_RESULTS_DIR}/gtest-${name}.xml)
 endfunction()
 
 # ec_add_unittest(NAME FILE)
 # A file of Python's unittest that needs no ROS master.
 function(ec_add_unittest name file)
-  set(result unittest-${name}.xml)
-  set(runner ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/scripts/lib/run_unittest.py)
-  string(REPLACE ";" " " command
-    "${runner};${CMAKE_CURRENT_SOURCE_DIR}/${file};${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME}/${result}")
-  catkin_run_tests_target("unittest" ${name} ${result} COMMAND "${command}")
+  ec_add_test(unittest ${name} unittest-${name}.xml
+    COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/scripts/lib/run_unittest.py ${CMAKE_CURRENT_SOURCE_DIR}/${file}
+            ${EC_TEST_RESULTS_DIR}/unittest-${name}.xml)
+endfunction()
+
+# ec_add_rostest(FILE DEPENDENCIES targets...)
+# A rostest file of this folder.
+function(ec_add_rostest file)
+  cmake_parse_arguments(ARG "" "" "DEPENDENCIES" ${ARGN})
+  file(RELATIVE_PATH path ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+  string(REPLACE "/" "_" name ${path})
+  string(REGEX REPLACE "\\.test$" ".xml" output ${name})
+  find_program(EC_ROSTEST rostest)
+  ec_add_test(rostest ${name} rostest-${output} DEPENDENCIES ${ARG_DEPENDENCIES}
+    COMMAND ${PYTHON_EXECUTABLE} ${EC_ROSTEST} --pkgdir=${PROJECT_SOURCE_DIR} --package=${PROJECT_NAME}
+            --results-filename ${output} --results-base-dir ${CATKIN_TEST_RESULTS_DIR}
+            ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+endfunction()
+
+# ec_add_launch_check(FILE)
+# roslaunch's check of a launch file: it parses, and package.xml names what it starts.
+function(ec_add_launch_check file)
+  get_filename_component(name ${file} NAME)
+  ec_add_test(roslaunch-check ${name} roslaunch-check-${name}.xml
+    COMMAND ${PYTHON_EXECUTABLE} ${roslaunch_check_script} -o ${EC_TEST_RESULTS_DIR}/roslaunch-check-${name}.xml
+            --use-test-depends ${file})
 endfunction()

@@ -2,52 +2,76 @@
 # shellcheck shell=bash
 # The system packages this package needs, and their installation. To be sourced; set -eu is expected.
 
-# Names of Debian 11, 12 and 13. `ros-*` hold the message definitions, `lib*-msgs-dev` their headers.
-EC_DEBIAN_PACKAGES=(
-  # build
-  g++ make cmake catkin ros-message-generation protobuf-compiler
+# Names of Debian 11, 12, 13 and sid. `ros-*` hold the message definitions, `lib*-msgs-dev` their headers.
+EC_DEBIAN_BUILD_PACKAGES=(
+  g++ make cmake catkin ros-message-generation ros-message-runtime protobuf-compiler python3-setuptools
   libroscpp-dev libnodelet-dev libnodeletlib-dev pluginlib-dev libtf2-dev libtf2-msgs-dev libtf2-geometry-msgs-dev
   libgeometry-msgs-dev libnav-msgs-dev libstd-msgs-dev libvisualization-msgs-dev
   ros-geometry-msgs ros-nav-msgs ros-std-msgs ros-visualization-msgs
-  libboost-dev libboost-thread-dev libeigen3-dev libompl-dev libprotobuf-dev
-  # run
-  libnodeletlib-tools ros-message-runtime rosbash rviz
-  python3-rosbag python3-roslaunch python3-rosnode python3-rosparam python3-rospy python3-rosservice python3-rostopic
+  libboost-dev libeigen3-dev libompl-dev libprotobuf-dev libtinyxml2-dev
+)
+# Beside the libraries; the package of scripts/package depends on these.
+EC_DEBIAN_RUN_PACKAGES=(
+  libnodeletlib-tools rosbash
+  python3-genpy python3-rosbag python3-rosgraph python3-roslaunch python3-roslib python3-rospy python3-rosservice
   python3-tf2-ros python3-geometry-msgs python3-nav-msgs python3-std-msgs python3-visualization-msgs
-  python3-numpy python3-protobuf python3-yaml
+  python3-protobuf
   netbase  # makes /etc/hosts where there is none, as in a bare chroot: ROS needs the name localhost
-  # test
+)
+EC_DEBIAN_TEST_PACKAGES=(
   catkin-lint libgtest-dev librostest-dev python3-rostest
+  python3-numpy python3-rosnode python3-rosparam python3-rospkg python3-rostopic python3-yaml
+  rviz  # what demo.launch starts
 )
 # A picture of rviz: a display for where there is none, and what takes the screenshot.
 EC_DEBIAN_PICTURE_PACKAGES=(xvfb x11-utils imagemagick libgl1-mesa-dri)
 
 # Names of Ubuntu 20.04 with Noetic from packages.ros.org.
-EC_NOETIC_PACKAGES=(
-  g++ make cmake protobuf-compiler python3-catkin-lint python3-numpy python3-protobuf python3-yaml
-  libboost-dev libboost-thread-dev libeigen3-dev libgtest-dev libompl-dev libprotobuf-dev
-  ros-noetic-catkin ros-noetic-geometry-msgs ros-noetic-message-generation ros-noetic-message-runtime
-  ros-noetic-nav-msgs ros-noetic-nodelet ros-noetic-pluginlib ros-noetic-rosbag ros-noetic-rosbash ros-noetic-roscpp
-  ros-noetic-roslaunch ros-noetic-rosnode ros-noetic-rosparam ros-noetic-rospy ros-noetic-rosservice
-  ros-noetic-rostest ros-noetic-rostopic ros-noetic-rviz ros-noetic-std-msgs ros-noetic-tf2
-  ros-noetic-tf2-geometry-msgs ros-noetic-tf2-msgs ros-noetic-tf2-ros ros-noetic-visualization-msgs
+EC_NOETIC_BUILD_PACKAGES=(
+  g++ make cmake protobuf-compiler python3-setuptools libboost-dev libeigen3-dev libprotobuf-dev
+  libtinyxml2-dev
+  ros-noetic-catkin ros-noetic-geometry-msgs ros-noetic-message-generation ros-noetic-nav-msgs ros-noetic-nodelet
+  ros-noetic-ompl ros-noetic-pluginlib ros-noetic-roscpp ros-noetic-std-msgs ros-noetic-tf2
+  ros-noetic-tf2-geometry-msgs ros-noetic-tf2-msgs ros-noetic-visualization-msgs
+)
+EC_NOETIC_RUN_PACKAGES=(
+  python3-protobuf
+  ros-noetic-genpy ros-noetic-message-runtime ros-noetic-rosbag ros-noetic-rosbash ros-noetic-rosgraph
+  ros-noetic-roslaunch ros-noetic-roslib ros-noetic-rospy ros-noetic-rosservice ros-noetic-tf2-ros
+)
+EC_NOETIC_TEST_PACKAGES=(
+  libgtest-dev python3-catkin-lint python3-numpy python3-rospkg python3-yaml
+  ros-noetic-rosnode ros-noetic-rosparam ros-noetic-rostest ros-noetic-rostopic ros-noetic-rviz
 )
 
-# ec_install [--picture]: installs what is missing of the packages above; a fraction of a second where all is there.
+# What /etc/os-release says of NAME, e.g. ID or VERSION_CODENAME.
+ec_os_release() { (set +u && . /etc/os-release 2>/dev/null && printf '%s' "${!1-}"); }
+
+# On Ubuntu 20.04 ROS is Noetic of packages.ros.org; everywhere else, and there with EC_ROS=debian, it is what Debian and
+# its kin have in their archive.
+ec_is_noetic() { [ "$(ec_os_release VERSION_CODENAME)" = focal ] && [ "${EC_ROS-}" != debian ]; }
+
+# ec_install [--picture] [PACKAGE...]: installs what is missing of the packages above, and of those named; a fraction of
+# a second where all is there.
 ec_install() {
-  local wanted=("${EC_DEBIAN_PACKAGES[@]}")
-  [ ! -d /opt/ros/noetic ] || wanted=("${EC_NOETIC_PACKAGES[@]}")
-  [ "${1-}" != --picture ] || wanted+=("${EC_DEBIAN_PICTURE_PACKAGES[@]}")
+  [ "${EC_NO_INSTALL:-0}" = 0 ] || return 0
+  local wanted=("${EC_DEBIAN_BUILD_PACKAGES[@]}" "${EC_DEBIAN_RUN_PACKAGES[@]}" "${EC_DEBIAN_TEST_PACKAGES[@]}")
+  if ec_is_noetic; then
+    wanted=("${EC_NOETIC_BUILD_PACKAGES[@]}" "${EC_NOETIC_RUN_PACKAGES[@]}" "${EC_NOETIC_TEST_PACKAGES[@]}")
+  fi
+  if [ "${1-}" = --picture ]; then shift && wanted+=("${EC_DEBIAN_PICTURE_PACKAGES[@]}"); fi
+  wanted+=("$@")
   local missing
   mapfile -t missing < <(ec_missing_packages "${wanted[@]}")
   [ "${#missing[@]}" -gt 0 ] || return 0
-  echo "installing ${#missing[@]} of ${#wanted[@]} system packages (a few minutes for all): ${missing[*]}"
+  echo "${#missing[@]} of ${#wanted[@]} system packages are missing: ${missing[*]}"
   ec_apt_get "${missing[@]}"
 }
 
 # Prints those of the named packages that are not installed, one per line.
 ec_missing_packages() {
-  command -v dpkg-query >/dev/null || ec_fail "this machine has no dpkg; install by hand what matches: $*"
+  command -v dpkg-query >/dev/null ||
+    ec_fail "this machine has no dpkg; install what matches the names below, then set EC_NO_INSTALL=1: $*"
   local installed
   installed=$(dpkg-query --show --showformat '${db:Status-Status} ${Package}\n' "$@" 2>/dev/null |
     sed -n 's/^installed //p') || true
@@ -59,14 +83,26 @@ ec_apt_get() {
   local as_root=(env)
   if [ "$(id --user)" -ne 0 ]; then
     { command -v sudo >/dev/null && sudo true; } ||
-      ec_fail "not root, and no way in by sudo; as root: apt-get install $*"
+      ec_fail "not root, and no way in by sudo; as root (or EC_NO_INSTALL=1 where you have them in another way):" \
+        "apt-get update && apt-get install --no-install-recommends $*"
     as_root=(sudo env)
   fi
-  local apt=("${as_root[@]}" DEBIAN_FRONTEND=noninteractive apt-get --yes --quiet=2 -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=300)
+  local apt=("${as_root[@]}" LC_ALL=C DEBIAN_FRONTEND=noninteractive apt-get -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=300)
   local attempt
   for attempt in 1 2 3; do
-    if "${apt[@]}" update && "${apt[@]}" install --no-install-recommends "$@" >/dev/null; then return 0; fi
+    if "${apt[@]}" --quiet=2 update && ec_tell_size "${apt[@]}" -- "$@" &&
+      "${apt[@]}" --yes --quiet=2 install --no-install-recommends "$@" >/dev/null; then return 0; fi
     [ "$attempt" -eq 3 ] || { echo "apt-get failed (attempt $attempt of 3); once more in 5 s" >&2 && sleep 5; }
   done
-  ec_fail "apt-get could not install: $*" "(names are of Debian 11 to 13, and of Ubuntu 20.04 with ROS Noetic)"
+  ec_fail "apt-get could not install: $*" \
+    "(names are of Debian 11 to 13 and sid, and of Ubuntu 20.04 with ROS Noetic; EC_NO_INSTALL=1 goes on without)"
+}
+
+# ec_tell_size APT_GET... -- PACKAGE...: says what apt-get would fetch, and how much the disk will hold of it.
+ec_tell_size() {
+  local apt=()
+  while [ "$1" != -- ]; do apt+=("$1") && shift; done
+  shift
+  "${apt[@]}" --assume-no install --no-install-recommends "$@" 2>&1 |
+    grep --extended-regexp '^([0-9]+ upgraded|Need to get|After this operation|E: )' || true
 }

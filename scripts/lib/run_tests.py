@@ -39,7 +39,7 @@ class Program:
 def list_programs(build_dir):
     """Those of this package, and of the examples that are built in examples/ of the build folder."""
     programs = _programs_of(build_dir, "external_command", "")
-    for folder in sorted(glob.glob(os.path.join(build_dir, "examples", "*"))):
+    for folder in sorted(glob.glob(os.path.join(glob.escape(build_dir), "examples", "*"))):
         package = os.path.basename(folder)
         programs += _programs_of(folder, package, package + "/")
     return programs
@@ -83,15 +83,16 @@ class Runner:
         """Runs one program to its end, or to the time-out; leaves none of its processes. Returns its Counts."""
         if self._is_stopped:
             return Counts()
-        started = time.time()
+        started = time.monotonic()
+        self._forget_sub_results(program)
         mark = owned_processes.new_mark()
         log_file = os.path.join(self._log_dir, program.title.replace(" ", "-").replace("/", "-") + ".log")
         exit_code, last_words = self._execute(program, mark, log_file)
         if exit_code is None:
             counts = Counts(failures=[f"no end after {TIMEOUT:.0f} s\n{last_words}"])
         else:
-            counts = count_program(program.result_file, self._sub_results(program, started), exit_code, last_words)
-        seconds = time.time() - started
+            counts = count_program(program.result_file, self._sub_results(program), exit_code, last_words)
+        seconds = time.monotonic() - started
         verdict = "FAIL" if counts.failures else "ok  "
         print(f"{verdict} {program.title:<60} {counts.text()}  ({seconds:.1f} s)", flush=True)
         counts.failures = [f"{program.title}: {text}\n  (output: {log_file})" for text in counts.failures]
@@ -116,13 +117,17 @@ class Runner:
                 self._live_marks.discard(mark)
 
     @staticmethod
-    def _sub_results(program, started):
-        """Files that rostest's test nodes wrote since the start, beside rostest's own."""
+    def _sub_results(program):
+        """Files that rostest's test nodes wrote, beside rostest's own."""
         if program.kind != "rostest":
             return []
-        folder = os.path.dirname(program.result_file)
-        paths = [os.path.join(folder, name) for name in sorted(os.listdir(folder)) if name.startswith("rosunit-")]
-        return [path for path in paths if os.path.getmtime(path) >= started]
+        return sorted(glob.glob(os.path.join(glob.escape(os.path.dirname(program.result_file)), "rosunit-*")))
+
+    @classmethod
+    def _forget_sub_results(cls, program):
+        """Their names do not tell the program; since only one rostest runs at a time, what is there then is its own."""
+        for path in cls._sub_results(program):
+            os.remove(path)
 
 
 def _tail(path, lines=20):

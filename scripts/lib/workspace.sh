@@ -12,11 +12,11 @@
 #   "$(ec_executable coverage_benchmark)" "$@"
 #
 # `ec_has_target NAME` tells whether there is such a make target. EC_BUILD_DIR sets another build folder,
-# EC_CMAKE_ARGS more arguments for cmake, EC_JOBS the number of compilers at once.
+# EC_CMAKE_ARGS more arguments for cmake (words, quoted as for a shell), EC_JOBS the number of compilers at once,
+# EC_UNDERLAY the setup.bash of the ROS to build on, EC_NO_INSTALL=1 that nothing is installed.
 
 EC_ROOT=$(readlink --canonicalize "$(dirname "${BASH_SOURCE[0]}")/../..")
 EC_BUILD_DIR=${EC_BUILD_DIR:-$EC_ROOT/build}
-EC_UNDERLAY=/opt/ros/noetic/setup.bash  # of the workspace to build on; Debian's ROS has none
 
 ec_fail() {
   echo "error: $*" >&2
@@ -26,10 +26,15 @@ ec_fail() {
 # shellcheck source=scripts/lib/packages.sh
 source "$EC_ROOT/scripts/lib/packages.sh"
 
+if ec_is_noetic; then EC_UNDERLAY=${EC_UNDERLAY:-/opt/ros/noetic/setup.bash}; fi
+EC_UNDERLAY=${EC_UNDERLAY-}  # Debian's ROS lies in /usr, and has none
+
 # ROS and catkin are written for the system's python3, which need not be the first on the PATH.
 export PATH="/usr/bin:$PATH"
-# Message code for Lisp, EusLisp and JavaScript is of no use here and takes half of the generation's time.
-export ROS_LANG_DISABLE=${ROS_LANG_DISABLE:-genlisp:geneus:gennodejs}
+# Message code for Lisp, EusLisp and JavaScript is of no use here and takes half of the generation's time. Of these
+# Debian has Lisp alone, and its cmake warns of the others.
+if ec_is_noetic; then ROS_LANG_DISABLE=${ROS_LANG_DISABLE:-genlisp:geneus:gennodejs}; fi
+export ROS_LANG_DISABLE=${ROS_LANG_DISABLE:-genlisp}
 
 # Makes ROS known to this shell and, once built, this package.
 ec_environment() {
@@ -69,23 +74,39 @@ ec_build() {
   ) 9>"$EC_BUILD_DIR/.lock" || exit 1
 }
 
-# Configures quietly; cmake's output is kept in a file, and shown when it fails.
-ec_configure() {
-  local log=$EC_BUILD_DIR/configure.log
-  # shellcheck disable=SC2086  # EC_CMAKE_ARGS is a list of words
-  cmake -S "$EC_ROOT" -B "$EC_BUILD_DIR" -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 \
-    ${EC_CMAKE_ARGS-} >"$log" 2>&1 || { cat "$log" >&2 && ec_fail "cmake could not configure $EC_ROOT (see above)"; }
+# Waits for the end of another run of tests in this build folder: results and logs lie there under fixed names.
+ec_one_at_a_time() {
+  mkdir -p "$EC_BUILD_DIR"
+  exec 8>"$EC_BUILD_DIR/.tests.lock"
+  flock --nonblock 8 && return
+  echo "tests run in $EC_BUILD_DIR already; waiting for their end (with another EC_BUILD_DIR both run at once)" >&2
+  flock 8
 }
 
-# Installs this package into .install/ of the build folder, and builds each package of examples/, with its tests, on
-# that. Hidden, since roslaunch and rosrun look for files in all other folders of a package, its build folder too.
+# Configures quietly; cmake's output is kept in a file, and shown when it fails. A build folder that was configured with
+# the same words is left to make, which calls cmake where a CMake file has changed: where gtest is built from source,
+# each further configuration would compile everything anew.
+# What is installed goes into .install/ of the build folder. Hidden, since roslaunch and rosrun look for files in all
+# other folders of a package, its build folder too.
+ec_configure() {
+  local log=$EC_BUILD_DIR/configure.log more words
+  mapfile -t more < <(xargs --no-run-if-empty printf '%s\n' <<<"${EC_CMAKE_ARGS-}")
+  words=(-S "$EC_ROOT" -B "$EC_BUILD_DIR" --no-warn-unused-cli -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3
+    "-DCMAKE_INSTALL_PREFIX=$EC_BUILD_DIR/.install" -DCMAKE_INSTALL_MESSAGE=NEVER "${more[@]}")
+  local record=$EC_BUILD_DIR/.configured
+  if cmp --quiet "$record" <(printf '%s\n' "${words[@]}"); then return 0; fi
+  rm -f "$record"
+  cmake "${words[@]}" >"$log" 2>&1 || { cat "$log" >&2 && ec_fail "cmake could not configure $EC_ROOT (see above)"; }
+  printf '%s\n' "${words[@]}" >"$record"
+}
+
+# Installs this package, and builds each package of examples/, with its tests, on that.
 ec_build_examples() {
-  local prefix=$EC_BUILD_DIR/.install
-  EC_CMAKE_ARGS="${EC_CMAKE_ARGS-} -DCMAKE_INSTALL_PREFIX=$prefix -DCMAKE_INSTALL_MESSAGE=NEVER" ec_build install
-  local example
+  ec_build install
+  local underlay=$EC_BUILD_DIR/.install/setup.bash example
   for example in $(ec_examples); do
     EC_ROOT=$EC_ROOT/examples/$example EC_BUILD_DIR=$(ec_example_build_dir "$example") \
-      EC_UNDERLAY=$prefix/setup.bash ec_build all tests
+      EC_UNDERLAY=$underlay ec_build all tests
   done
 }
 

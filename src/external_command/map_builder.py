@@ -178,8 +178,9 @@ class MapBuilder:
         """With an overlap for every lane that runs through."""
         overlaps = []
         for lane in self.lanes.values():
-            inside = [0.1 * i for i in range(int(10.0 * lane.length) + 1)
-                      if curves.contains(polygon, curves.at(lane.center, 0.1 * i)[0])]
+            # Rounded, since in the last bit of a point exactly on a border Python's versions differ.
+            points = [[round(c, 6) for c in curves.at(lane.center, 0.1 * i)[0]] for i in range(int(10.0 * lane.length) + 1)]
+            inside = [0.1 * i for i, point in enumerate(points) if curves.contains(polygon, point)]
             if inside:
                 overlaps.append((lane.id, inside[0], inside[-1]))
         self.areas.append(Space(id, polygon, overlaps, name=name))

@@ -2,6 +2,7 @@
 #include "external_command_process_component.h"
 
 #include <ros/names.h>
+#include <tinyxml2.h>
 
 #include <algorithm>
 #include <cctype>
@@ -38,6 +39,30 @@ std::string whyUnknown(const std::string& type) {
   }
   return text("no nodelet plug-in declares the class ", type, "; declared processors: ", known,
               ". Is its package built, and its setup.bash sourced?");
+}
+
+/// The library that declares `type`, as the file of declarations names it; empty where it names none.
+std::string libraryOf(const std::string& type, const std::string& declarations) {
+  tinyxml2::XMLDocument document;
+  if (document.LoadFile(declarations.c_str()) != tinyxml2::XML_SUCCESS) return "";
+  const tinyxml2::XMLElement* library = document.RootElement();  // or a list of them
+  if (library->Attribute("path") == nullptr) library = library->FirstChildElement("library");
+  for (; library != nullptr; library = library->NextSiblingElement("library")) {
+    for (auto entry = library->FirstChildElement("class"); entry; entry = entry->NextSiblingElement("class")) {
+      if (entry->Attribute("name", type.c_str()) == nullptr) continue;
+      const char* const path = library->Attribute("path");
+      return path == nullptr ? "" : path;
+    }
+  }
+  return "";
+}
+
+/// What pluginlib is silent about in some versions: which library it looked for.
+std::string whyNotLoaded(const std::string& type) {
+  const std::string declarations =
+      pluginlib::ClassLoader<nodelet::Nodelet>("nodelet", "nodelet::Nodelet").getPluginManifestPath(type);
+  return text("nodelet could not load it from the library ", libraryOf(type, declarations), ", which ", declarations,
+              " names; the lines above tell why. Is the library built and installed?");
 }
 
 }  // namespace
@@ -135,7 +160,7 @@ std::string ExternalCommandProcessComponent::load(const std::string& type) {
     return error.what();  // of the constructor
   }
   const std::string reason = startFailureOf(name);
-  return reason.empty() ? "nodelet could not load it; the lines above tell why" : reason;
+  return reason.empty() ? whyNotLoaded(type) : reason;
 }
 
 }  // namespace external_command

@@ -82,7 +82,8 @@ class LoadingTest(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             broken = self._package_without_library(folder)
             paths = os.environ.get("ROS_PACKAGE_PATH", "") + ":" + folder
-            self.assert_stops(component([broken], environment={"ROS_PACKAGE_PATH": paths}), broken, "liblost")
+            self.assert_stops(component([broken], environment={"ROS_PACKAGE_PATH": paths}), broken,
+                              "the library liblost", "lost_package/plugins.xml")
 
     @staticmethod
     def _package_without_library(folder):
@@ -100,7 +101,7 @@ class LoadingTest(unittest.TestCase):
                 """))
         with open(os.path.join(package, "plugins.xml"), "w", encoding="utf-8") as file:
             file.write(textwrap.dedent("""\
-                <library path="lib/liblost">
+                <library path="liblost">
                   <class name="lost_package/LostProcessor" type="lost_package::LostProcessor"
                          base_class_type="nodelet::Nodelet"/>
                 </library>

@@ -51,7 +51,7 @@ class ManoeuvresTest(unittest.TestCase):
 
     @classmethod
     def tearDownClass(cls):
-        shutil.rmtree("/tmp/external_command_manoeuvres_test", ignore_errors=True)
+        shutil.rmtree(rospy.get_param("/courtyard/zone_cover_command_processor/progress_folder"), ignore_errors=True)
 
     def call(self, ns, name, service_type, command):
         return support.service("/%s/external_command/%s" % (ns, name), service_type)(command)

@@ -15,7 +15,7 @@ from external_command.msg import ActionCommand, CommandStatus, FreeSpaceCommand,
 from external_command.srv import FreeSpace
 from zone_yard import Sweeper, box, percent_of, polygon, swath_of, wait_until_kept
 
-FOLDER = "/tmp/external_command_zone_files_test"
+FOLDER = rospy.get_param("/courtyard/zone_cover_command_processor/progress_folder")
 YARD = box(13, 11)
 
 
@@ -48,6 +48,7 @@ class ZoneCoverFilesTest(unittest.TestCase):
     def setUp(self):
         """Every test begins in the middle, and with no file."""
         self.clear_folder()
+        self.courtyard.wait_until_standing()
         self.drive_to(0.0)
 
     def send_to(self, x, command_id=0):
@@ -83,6 +84,7 @@ class ZoneCoverFilesTest(unittest.TestCase):
         last = self.courtyard.sweep_until(YARD, lambda m: percent_of(m) >= 10, None, command_id=71)[-1]
         self.send_to(5.0, command_id=72)
         self.courtyard.stop()
+        self.courtyard.wait_until_standing()
         self.drive_to(-5.0, command_id=71)
         again = self.courtyard.cover(YARD, resume=True, dry_run=True)
         self.assertEqual(again.status.status, CommandStatus.FINISHED, support.describe(again.status))

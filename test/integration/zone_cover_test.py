@@ -19,7 +19,7 @@ from external_command.srv import FreeSpace
 from zone_yard import Sweeper, box, percent_of, polygon, swath_of, wait_until_kept
 
 NODE = "/courtyard/external_command"
-PROGRESS_FOLDER = "/tmp/external_command_zone_cover_test"
+PROGRESS_FOLDER = rospy.get_param("/courtyard/zone_cover_command_processor/progress_folder")
 YARD = box(13, 10)
 SMALL_YARD = box(12, 10)
 OCCUPIED = (6.0, 2.0, 8.0, 4.0)  # x0, y0, x1, y1 of an obstacle in the grid [m]
@@ -75,6 +75,7 @@ class ZoneCoverTest(unittest.TestCase):
 
     def setUp(self):
         """Every test begins in the middle."""
+        SWEEPER.wait_until_standing()
         middle = Pose(heading=0.0, has_heading=True)
         command = FreeSpaceCommand(parking_spot_pose=middle, drivable_roi=polygon(box(40, 40)))
         self.finish(self.assert_running(support.service(SWEEPER.ns + "free_space", FreeSpace)(command)))

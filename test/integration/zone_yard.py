@@ -4,10 +4,11 @@ import os
 import re
 import time
 
+import rospy
 from geometry_msgs.msg import Point
 
 import support
-from external_command.msg import ActionCommand, CommandStatus, RoiPolygon, ZoneCoverCommand
+from external_command.msg import ActionCommand, Chassis, CommandStatus, RoiPolygon, ZoneCoverCommand
 from external_command.srv import Action, ZoneCover
 
 
@@ -50,6 +51,7 @@ class Sweeper:
     def __init__(self, vehicle):
         self.ns = "/%s/external_command/" % vehicle
         self.status_service = self.ns + "command_status"
+        self._chassis_topic = "/%s/canbus/chassis" % vehicle
 
     def cover(self, corners, **fields):
         command = ZoneCoverCommand(drivable_roi=polygon(corners), swath_width=2.5, **fields)
@@ -70,6 +72,12 @@ class Sweeper:
     def stop(self):
         self.act(ActionCommand.STOP)
 
+    def wait_until_standing(self):
+        """A path that is planned while the vehicle moves begins, on a busy machine, too far behind it."""
+        def stands():
+            return rospy.wait_for_message(self._chassis_topic, Chassis, support.DEADLINE).speed_mps == 0.0
+        support.wait_until(stands, "the vehicle stands")
+
     def finish(self, command_id):
         support.wait_for_status(command_id, CommandStatus.FINISHED, self.status_service, 90.0)
 
@@ -85,6 +93,7 @@ class Sweeper:
         statuses.wait_for(lambda m: m.command_id == command_id and reached(m.message), "progress")
         if action:
             self.act(action)
+            self.wait_until_standing()
         messages = [m.message for m in statuses.messages if m.command_id == command_id and swath_of(m.message)]
         statuses.close()
         return messages

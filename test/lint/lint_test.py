@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Rules of the sources that no compiler checks."""
 import ast
+import importlib.util
 import os
 import re
 import shutil
 import subprocess
 import unittest
+import xml.etree.ElementTree as ElementTree
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(__file__), "..", ".."))
 # ROS headers lie in /usr/include on Debian, so no include path keeps them out of these.
@@ -50,6 +52,28 @@ def lines_that_match(pattern, paths):
             for number, line in enumerate(read(path).splitlines(), 1) if pattern.search(line)]
 
 
+def manifest():
+    return ElementTree.parse(os.path.join(ROOT, "package.xml")).getroot()
+
+
+def imported_packages(paths):
+    """Names of what Python files import of other packages: neither of Python itself, nor of this one, nor beside them."""
+    names = set()
+    for path in paths:
+        for node in ast.walk(ast.parse(read(path), path)):
+            if isinstance(node, ast.Import):
+                names.update(alias.name.split(".")[0] for alias in node.names)
+            elif isinstance(node, ast.ImportFrom) and node.level == 0:
+                names.add(node.module.split(".")[0])
+    return {name for name in names - {"external_command"} if "dist-packages" in _place_of(name)}
+
+
+def _place_of(module):
+    spec = importlib.util.find_spec(module)
+    places = [] if spec is None else [spec.origin] + list(spec.submodule_search_locations or [])
+    return " ".join(filter(None, places))
+
+
 class LintTest(unittest.TestCase):
     def test_catkin_lint_finds_nothing(self):
         if not shutil.which("catkin_lint"):
@@ -83,6 +107,21 @@ class LintTest(unittest.TestCase):
         long = [f"{os.path.relpath(path, ROOT)}: {len(read(path).splitlines())} lines, the limit is {MAX_LINES}"
                 for path in files(endings=(".h", ".cpp", ".py")) if len(read(path).splitlines()) > MAX_LINES]
         self.assertEqual([], long)
+
+    def test_the_changelog_begins_with_the_version_of_the_package(self):
+        newest = re.search(r"^(\d+\.\d+\.\d+) ", read(os.path.join(ROOT, "CHANGELOG.rst")), re.MULTILINE)
+        self.assertEqual(newest.group(1), manifest().findtext("version"))
+
+    def test_package_xml_names_what_python_imports(self):
+        declared = {tag: {element.text for element in manifest().iter(tag)}
+                    for tag in ("depend", "exec_depend", "test_depend")}
+        installed = [path for path in scripts() if "python" in read(path).splitlines()[0]]
+        for paths, tags in ((files("src", endings=(".py",)) + installed, ("depend", "exec_depend")),
+                            (files("scripts", "test", endings=(".py",)), ("depend", "exec_depend", "test_depend"))):
+            known = set().union(*(declared[tag] for tag in tags))
+            for name in imported_packages(paths):
+                rosdep_key = "python3-" + {"google": "protobuf"}.get(name, name)
+                self.assertTrue(known & {name, rosdep_key}, f"{name} is in none of {', '.join(tags)}")
 
     def test_scripts_are_executable_and_parse(self):
         for path in scripts() + files("scripts/lib", endings=(".sh", ".py")):
