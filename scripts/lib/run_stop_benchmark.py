@@ -16,6 +16,16 @@ from run_benchmarks import executable, measure
 WARM_UP = 5.0  # until the planners are busy [s]
 TIMEOUT = 300.0  # of one measurement [s]
 NAMESPACE = "__ns:=/apollo"
+AUTOGROUP = "/proc/sys/kernel/sched_autogroup_enabled"
+
+
+def groups_sessions():
+    """True where the kernel shares the processor among sessions first: a thread's priority then counts in its own."""
+    try:
+        with open(AUTOGROUP, encoding="ascii") as file:
+            return file.read().strip() == "1"
+    except OSError:
+        return False
 
 
 def measure_under(load, build_dir, clients, calls):
@@ -37,7 +47,8 @@ def measure_under(load, build_dir, clients, calls):
             except subprocess.TimeoutExpired:
                 others.kill()
                 others.wait()
-    return {**result, "load": load, "clients": 0 if load == "idle" else clients, "cores": os.cpu_count()}
+    return {**result, "load": load, "clients": 0 if load == "idle" else clients, "cores": os.cpu_count(),
+            "autogroup": groups_sessions()}
 
 
 def main(build_dir, map_file, clients, calls):
@@ -59,6 +70,9 @@ def main(build_dir, map_file, clients, calls):
         if "error" not in result:
             print("%-10s %8d %12.2f %10.2f %10.2f" % (result["load"], result["clients"], result["median_ms"],
                                                       result["p99_ms"], result["max_ms"]))
+    if groups_sessions():
+        print("The kernel shares the processor among sessions first (%s is 1): what nodes of low priority do delays "
+              "others all the same." % AUTOGROUP)
     return 1 if any("error" in result for result in results) else 0
 
 

@@ -26,11 +26,6 @@ bool CommandGate::wasStoppedSince(const ros::WallTime& time) const {
   return !last_stop_.isZero() && last_stop_ >= time;
 }
 
-ArrivalNumber CommandGate::arrive() {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return ++arrivals_;
-}
-
 void CommandGate::requireNewest(const AdmittedCommand& command) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   requireNewestLocked(command);

@@ -6,9 +6,22 @@
 #include "external_command/core/text.h"
 #include "external_command/ros/bounded_subscription.h"
 #include "external_command/ros/log_lane.h"
+#include "external_command/ros/refusal_pace.h"
 #include "external_command/ros/status.h"
 
 namespace external_command {
+
+namespace {
+
+/// What a caller may well ask again at once.
+bool asksForAnother(const CommandStatus& status) {
+  return status.error_code == CommandStatus::NOT_READY || status.error_code == CommandStatus::CANCELLED ||
+         status.error_code == CommandStatus::SUPERSEDED;
+}
+
+}  // namespace
+
+CommandService::CommandService(std::string service) : service_name_(std::move(service)) {}
 
 CommandService::~CommandService() {
   if (lane_)
@@ -40,6 +53,7 @@ void CommandService::start() {
 
 void CommandService::open() {
   const Threads threads = this->threads();
+  refusal_pace_ = std::make_unique<RefusalPace>(threads.count / 2);
   LaneOptions options;
   options.name = "the lane of " + id();
   options.threads = threads.count;
@@ -81,6 +95,7 @@ CommandStatus CommandService::admitAndExecute(const Incoming& request,
   } else {
     registry.noteAnswer(admission.command.serial, status.message);
   }
+  if (asksForAnother(status) && refusal_pace_) refusal_pace_->pauseIfFlooded();
   return status;
 }
 

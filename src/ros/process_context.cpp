@@ -110,7 +110,7 @@ ProcessContext::ProcessContext(const ros::NodeHandle& nh, const ros::NodeHandle&
     : params_(readContextParams(ParameterReader(parameters))),
       nh_(onGlobalQueue(nh)),
       log_lane_(LogLane::acquire()),
-      planning_slots_(PlanningSlots::acquire(params_.planning)),
+      planning_pool_(PlanningPool::acquire(params_.planning)),
       router_(routerOf(params_)),
       vehicle_pose_(params_.map_frame, params_.base_frame, params_.max_pose_age, params_.max_future_stamp),
       registry_(

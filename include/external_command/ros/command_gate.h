@@ -3,6 +3,7 @@
 
 #include <ros/time.h>
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -49,8 +50,8 @@ class CommandGate {
 
   CommandGate();
 
-  /// The next number; every request that came in earlier has a smaller one.
-  ArrivalNumber arrive();
+  /// The next number; every request that came in earlier has a smaller one. Takes no lock: the network thread calls it.
+  ArrivalNumber arrive() { return ++arrivals_; }
 
   /// Differs from those of all other gates, of other processes too.
   const std::string& name() const { return name_; }
@@ -94,7 +95,7 @@ class CommandGate {
 
   const std::string name_;
   mutable std::mutex mutex_;
-  ArrivalNumber arrivals_ = 0;
+  std::atomic<ArrivalNumber> arrivals_{0};
   ArrivalNumber stopped_ = 0;  ///< arrivals up to this one were stopped
   ros::WallTime last_stop_;    ///< zero: never
   AdmittedCommand newest_;     ///< that began, by its arrival

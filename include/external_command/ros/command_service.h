@@ -18,6 +18,8 @@
 
 namespace external_command {
 
+class RefusalPace;
+
 /// The part of ServiceCommandProcessor that does not depend on the service: admission, statuses, log.
 class CommandService : public CommandProcessor {
  public:
@@ -30,7 +32,7 @@ class CommandService : public CommandProcessor {
   };
 
   /// @param service  default of the parameter `input_command_name`.
-  explicit CommandService(std::string service) : service_name_(std::move(service)) {}
+  explicit CommandService(std::string service);
 
   /// Of the processor's lane. Asked once, after start().
   virtual Threads threads() const { return {}; }
@@ -100,6 +102,7 @@ class CommandService : public CommandProcessor {
   ros::Publisher log_publisher_;
   std::vector<ros::Subscriber> report_subscribers_;
   ros::ServiceServer server_;
+  std::unique_ptr<RefusalPace> refusal_pace_;
   std::unique_ptr<DedicatedLane> lane_;
 };
 

@@ -10,7 +10,7 @@
 #include "external_command/ros/checks.h"
 #include "external_command/ros/conversions.h"
 #include "external_command/ros/motion_flow.h"
-#include "external_command/ros/planning_slots.h"
+#include "external_command/ros/planning_pool.h"
 #include "external_command/ros/plans_in_work.h"
 #include "external_command/ros/routing_task.h"
 #include "external_command/ros/service_command_processor.h"
@@ -23,7 +23,7 @@ namespace external_command {
 ///                       destructor.
 /// A derived class must  poll the cancel token in every long loop: a stop or a newer command raises it.
 /// A derived class may   override planningTime() and beginsAtVehicle(), and set MotionPlan::on_sent.
-/// All hooks run on the processor's lane, below normal priority; no lock is held.
+/// The hooks that plan run on a planning thread, below normal priority; no lock is held.
 template <class Service>
 class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
  public:
@@ -65,20 +65,20 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
   void cancelWork() override { plans_in_work_.cancelForGood(); }
 
   CommandService::Threads threads() const override {
-    return {this->context().planningSlots().threadsPerService(), LanePriority::kBackground};
+    return {this->context().planningPool().threadsPerService(), LanePriority::kNormal};
   }
 
   CommandStatus execute(const Command& command, const AdmittedCommand& admitted, Response* response) final {
     const CancelSource planning;
     const PlansInWork::Entry entry(&plans_in_work_, planning);
-    const auto slot = this->context().planningSlots().take(
-        command.dry_run ? PlanningSlots::Kind::kDryRun : PlanningSlots::Kind::kCommand, [&] {
+    const auto slot = this->context().planningPool().take(
+        command.dry_run ? PlanningPool::Kind::kDryRun : PlanningPool::Kind::kCommand, [&] {
           requireLoaded();
           if (!command.dry_run) this->context().gate().requireNewest(admitted);
         });
     try {
-      return command.dry_run ? planDry(command, planning.token(), response)
-                             : planAndSend(command, admitted, planning, response);
+      return command.dry_run ? planDry(command, slot, planning.token(), response)
+                             : planAndSend(command, admitted, slot, planning, response);
     } catch (const Cancelled&) {
       requireLoaded();
       if (!command.dry_run) this->context().gate().requireNewest(admitted);  // tells who cancelled it
@@ -87,24 +87,37 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
   }
 
  private:
-  CommandStatus planDry(const Command& command, const CancelToken& cancel, Response* response) {
+  CommandStatus planDry(const Command& command, const PlanningPool::Slot& slot, const CancelToken& cancel,
+                        Response* response) {
     const ros::SteadyTime begin = ros::SteadyTime::now();
     MotionPlan plan(this->context().motionWatch().startFor(0.0));
-    const double speed = flow_->cappedSpeed(command.target_speed, &plan.report);
-    if (const auto task = convert(command, plan.start)) flow_->addRoute(*task, speed, cancel, &plan);
-    processSpecialCommand(command, cancel, &plan);
-    flow_->assemble(speed, false, &plan);
-    flow_->complete(command.command_id, speed, &plan);
+    slot.run([&] {
+      const double speed = flow_->cappedSpeed(command.target_speed, &plan.report);
+      if (const auto task = convert(command, plan.start)) flow_->addRoute(*task, speed, cancel, &plan);
+      processSpecialCommand(command, cancel, &plan);
+      flow_->assemble(speed, false, &plan);
+      flow_->complete(command.command_id, speed, &plan);
+    });
     takeReport(begin, &plan, response);
     response->path = std::move(plan.command.path);
     return makeStatus(command.command_id, CommandStatus::FINISHED, ErrorCode::kOk, "dry run: nothing was sent");
   }
 
+  CommandStatus planAndSend(const Command& command, const AdmittedCommand& admitted, const PlanningPool::Slot& slot,
+                            const CancelSource& planning, Response* response) {
+    const ros::SteadyTime begin = ros::SteadyTime::now();
+    std::optional<MotionPlan> plan;
+    CommandGate::Ticket ticket;
+    slot.run([&] { plan = planFromWhereItWillBe(command, admitted, planning, &ticket); });
+    takeReport(begin, &*plan, response);
+    flow_->send(ticket, *std::move(plan));
+    return makeStatus(command.command_id, CommandStatus::RUNNING, ErrorCode::kOk, "sent");
+  }
+
   /// A vehicle that drives on while its plan is made may be elsewhere when it is done: planned once more, then, from
   /// where the vehicle will be.
-  CommandStatus planAndSend(const Command& command, const AdmittedCommand& admitted, const CancelSource& planning,
-                            Response* response) {
-    const ros::SteadyTime begin = ros::SteadyTime::now();
+  MotionPlan planFromWhereItWillBe(const Command& command, const AdmittedCommand& admitted,
+                                   const CancelSource& planning, CommandGate::Ticket* ticket) {
     const bool is_at_vehicle = beginsAtVehicle(command);
     double horizon = 0.0;
     for (int tries = 1;; ++tries) {
@@ -115,7 +128,7 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
       const double speed = flow_->cappedSpeed(command.target_speed, &plan.report);
       // The route first, a matter of a millisecond: a command without one must not disturb what is being planned.
       if (const auto task = convert(command, plan.start)) flow_->addRoute(*task, speed, planning.token(), &plan);
-      const auto ticket = this->context().gate().begin(admitted, planning);
+      *ticket = this->context().gate().begin(admitted, planning);
       processSpecialCommand(command, planning.token(), &plan);
       flow_->assemble(speed, is_at_vehicle, &plan);
       if (is_at_vehicle && here.isKnown() && !flow_->fitToVehicle(here.pose(), &plan)) {
@@ -125,9 +138,7 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
         continue;
       }
       flow_->complete(command.command_id, speed, &plan);
-      takeReport(begin, &plan, response);
-      flow_->send(ticket, std::move(plan));
-      return makeStatus(command.command_id, CommandStatus::RUNNING, ErrorCode::kOk, "sent");
+      return plan;
     }
   }
 

@@ -17,7 +17,7 @@
 #include "external_command/ros/master_watch.h"
 #include "external_command/ros/motion_watch.h"
 #include "external_command/ros/parameters.h"
-#include "external_command/ros/planning_slots.h"
+#include "external_command/ros/planning_pool.h"
 #include "external_command/ros/request_limits.h"
 #include "external_command/ros/vehicle_pose.h"
 
@@ -77,7 +77,7 @@ class ProcessContext {
   CommandGate& gate() { return gate_; }
   CommandRegistry& registry() { return registry_; }
   MotionWatch& motionWatch() { return motion_watch_; }
-  PlanningSlots& planningSlots() { return *planning_slots_; }
+  PlanningPool& planningPool() { return *planning_pool_; }
   Display& display() { return display_; }
 
   MasterWatch& masterWatch() { return *master_watch_; }
@@ -134,7 +134,7 @@ class ProcessContext {
   std::mutex publishers_mutex_;
   std::map<std::string, Shared> publishers_;
   const std::shared_ptr<LogLane> log_lane_;
-  const std::shared_ptr<PlanningSlots> planning_slots_;
+  const std::shared_ptr<PlanningPool> planning_pool_;
   const std::shared_ptr<const Router> router_;
   const VehiclePose vehicle_pose_;
   CommandGate gate_;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "external_command/ros/planning_slots.h"
+#include "external_command/ros/planning_pool.h"
 
 #include <algorithm>
 #include <chrono>
+#include <future>
 #include <thread>
 
 #include "external_command/core/error.h"
@@ -32,19 +33,22 @@ void PlanningLimits::validate() const {
   requireWithin("planning_queue", waiting, 0, 1000);
 }
 
-PlanningSlots::PlanningSlots(const PlanningLimits& limits)
-    : most_dry_runs_(std::max(1, coresOrMore(limits.threads) - 1)), most_waiting_(limits.waiting) {}
+PlanningPool::PlanningPool(const PlanningLimits& limits)
+    : most_dry_runs_(std::max(1, coresOrMore(limits.threads) - 1)),
+      most_waiting_(limits.waiting),
+      lane_(LaneOptions{"the planning threads", static_cast<unsigned>(most_commands_ + most_dry_runs_),
+                        LanePriority::kBackground}) {}
 
-std::shared_ptr<PlanningSlots> PlanningSlots::acquire(const PlanningLimits& limits) {
+std::shared_ptr<PlanningPool> PlanningPool::acquire(const PlanningLimits& limits) {
   static std::mutex mutex;
-  static std::weak_ptr<PlanningSlots> live;
+  static std::weak_ptr<PlanningPool> live;
   const std::lock_guard<std::mutex> lock(mutex);
-  auto slots = live.lock();
-  if (!slots) live = slots = std::make_shared<PlanningSlots>(limits);
-  return slots;
+  auto pool = live.lock();
+  if (!pool) live = pool = std::make_shared<PlanningPool>(limits);
+  return pool;
 }
 
-PlanningSlots::Slot PlanningSlots::take(Kind kind, const std::function<void()>& check) {
+PlanningPool::Slot PlanningPool::take(Kind kind, const std::function<void()>& check) {
   std::unique_lock<std::mutex> lock(mutex_);
   if (!isFree(kind) && waiting(kind) >= most_waiting_) {
     throw NotReady(text("busy: ", commands_, " commands and ", dry_runs_, " dry runs are being planned, ",
@@ -69,19 +73,25 @@ PlanningSlots::Slot PlanningSlots::take(Kind kind, const std::function<void()>& 
   return {this, kind};
 }
 
-bool PlanningSlots::isFree(Kind kind) const {
+bool PlanningPool::isFree(Kind kind) const {
   if (kind == Kind::kCommand) return commands_ < most_commands_;
   return dry_runs_ < most_dry_runs_ && waiting_commands_ == 0;
 }
 
-PlanningSlots::Slot::~Slot() {
-  if (slots_ == nullptr) return;
-  const std::lock_guard<std::mutex> lock(slots_->mutex_);
-  --(kind_ == Kind::kCommand ? slots_->commands_ : slots_->dry_runs_);
-  slots_->changed_.notify_all();
+void PlanningPool::Slot::run(const std::function<void()>& job) const {
+  std::packaged_task<void()> task(job);
+  pool_->lane_.post([&task] { task(); });
+  task.get_future().get();
 }
 
-unsigned PlanningSlots::threadsPerService() const {
+PlanningPool::Slot::~Slot() {
+  if (pool_ == nullptr) return;
+  const std::lock_guard<std::mutex> lock(pool_->mutex_);
+  --(kind_ == Kind::kCommand ? pool_->commands_ : pool_->dry_runs_);
+  pool_->changed_.notify_all();
+}
+
+unsigned PlanningPool::threadsPerService() const {
   return static_cast<unsigned>(most_commands_ + most_dry_runs_ + 2 * most_waiting_ + 1);
 }
 

@@ -6,6 +6,8 @@
 #include <memory>
 #include <mutex>
 
+#include "external_command/ros/dedicated_lane.h"
+
 namespace external_command {
 
 struct PlanningLimits {
@@ -16,35 +18,40 @@ struct PlanningLimits {
   void validate() const;
 };
 
-/// Bounds how many requests of all services of one process are planned at once, and how many wait for that: answers
-/// come within the planning budget, or "busy" at once. Threads plan in the lanes of their services, below normal
-/// priority.
+/// The threads that plan, for all services of one process, below normal priority. Bounds how many requests are planned
+/// at once, and how many wait for that: answers come within the planning budget, or "busy" at once.
+///
+/// Only what is planned runs here. A thread of low priority that is pushed aside while it holds a lock of the gate, of
+/// the registry or of roscpp would delay a STOP by as long as it takes to get its turn.
 ///
 /// Two commands may always be in work: the one that is planned, and the newer one that is about to cancel it. Dry runs
 /// take what is left of the threads (one at least), and wait behind commands. Thread-safe.
-class PlanningSlots {
+class PlanningPool {
  public:
   enum class Kind { kCommand, kDryRun };
 
-  explicit PlanningSlots(const PlanningLimits& limits);
+  explicit PlanningPool(const PlanningLimits& limits);
 
   /// Those of this process: made with `limits` by who asks first, kept by who holds them.
-  static std::shared_ptr<PlanningSlots> acquire(const PlanningLimits& limits);
+  static std::shared_ptr<PlanningPool> acquire(const PlanningLimits& limits);
 
-  /// One request in work, as long as it lives.
+  /// The right to plan one request, as long as it lives.
   class Slot {
    public:
-    Slot(Slot&& other) noexcept : slots_(other.slots_), kind_(other.kind_) { other.slots_ = nullptr; }
+    /// Runs `job` on a planning thread and waits for it. What it throws is thrown here.
+    void run(const std::function<void()>& job) const;
+
+    Slot(Slot&& other) noexcept : pool_(other.pool_), kind_(other.kind_) { other.pool_ = nullptr; }
     Slot(const Slot&) = delete;
     Slot& operator=(const Slot&) = delete;
     Slot& operator=(Slot&&) = delete;
     ~Slot();
 
    private:
-    friend class PlanningSlots;
-    Slot(PlanningSlots* slots, Kind kind) : slots_(slots), kind_(kind) {}
+    friend class PlanningPool;
+    Slot(PlanningPool* pool, Kind kind) : pool_(pool), kind_(kind) {}
 
-    PlanningSlots* slots_;
+    PlanningPool* pool_;
     Kind kind_;
   };
 
@@ -67,6 +74,7 @@ class PlanningSlots {
   std::condition_variable changed_;
   int commands_ = 0, dry_runs_ = 0;  ///< in work
   int waiting_commands_ = 0, waiting_dry_runs_ = 0;
+  DedicatedLane lane_;
 };
 
 }  // namespace external_command
