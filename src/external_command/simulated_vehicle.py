@@ -62,6 +62,7 @@ class SimulatedVehicleNode:
                                          bicycle.VehicleState(settings.x, settings.y, settings.heading))
         self._chassis = SimulatedChassis(read_parameters(ChassisSettings))
         self._seen = None  # (id, stamp) of the last planning command
+        self._last_stop = None  # the last pad that stopped, None once a START let the vehicle go on
         self._shown_scenario = None
         self._shown_mode = None
         self._due = {}  # name of something periodic -> when it is due next
@@ -103,7 +104,7 @@ class SimulatedVehicleNode:
         for topic, message_class, callback in (
                 ("planning/command", PlanningCommand, self._on_planning_command),
                 ("planning/speed_command", SpeedCommand, planner.accept_speed),
-                ("planning/pad", PlanningPad, lambda pad: planner.accept_pad(pad.action)),
+                ("planning/pad", PlanningPad, self._on_planning_pad),
                 ("control/pad", ControlPad, lambda pad: chassis.accept_pad(pad.action)),
                 ("canbus/chassis_control", ChassisCommand, chassis.accept_command),
                 ("initialpose", PoseWithCovarianceStamped, self._on_initial_pose)):
@@ -128,6 +129,21 @@ class SimulatedVehicleNode:
             self._planner.refuse(command.command_id, text)
         else:
             self._planner.accept(command)
+            if command.is_motion_command and self._was_overtaken(command):
+                self._planner.accept_pad(self._last_stop.action)
+
+    def _on_planning_pad(self, pad):
+        if pad.action in (PlanningPad.STOP, PlanningPad.CLEAR_PLANNING):
+            self._last_stop = pad
+        elif pad.action == PlanningPad.RESUME_CRUISE:
+            self._last_stop = None
+        self._planner.accept_pad(pad.action)
+
+    def _was_overtaken(self, command):
+        """By a stop that was sent later: topics are not in step. A stop from ahead of now is from before simulated time
+        was set back."""
+        return (self._last_stop is not None
+                and command.header.stamp < self._last_stop.header.stamp <= rospy.Time.now())
 
     def _on_initial_pose(self, message):
         frame = message.header.frame_id.lstrip("/")

@@ -7,8 +7,9 @@ import rospy
 import rostest
 
 import support
-from external_command.msg import ActionCommand, Chassis, CommandStatus, ControlPad, PlanningPad
-from external_command.srv import Action
+from external_command.msg import (ActionCommand, Chassis, CommandStatus, ControlPad, PathFollowCommand, PlanningCommand,
+                                  PlanningPad)
+from external_command.srv import Action, PathFollow
 from vehicle import Vehicle
 
 
@@ -62,6 +63,20 @@ class ActionTest(unittest.TestCase):
         support.wait_for_status(start, CommandStatus.FINISHED)
         self.vehicle.wait_until_moving()
         self.assert_pads(self.planning, already, PlanningPad.STOP, PlanningPad.RESUME_CRUISE)
+
+    def test_a_stop_holds_the_command_before_it_that_reaches_the_vehicle_after_it(self):
+        self.finish(ActionCommand.STOP)
+        way = PathFollowCommand(way_point=self.vehicle.ahead((0.0, 0.0), (50.0, 0.0)), dry_run=True)
+        late = PlanningCommand(command_id=1, is_motion_command=True)
+        late.path = support.service("external_command/path_follow", PathFollow)(way).path
+        late.header.stamp = self.planning.messages[-1].header.stamp - rospy.Duration(0.001)
+        commands = rospy.Publisher("planning/command", PlanningCommand, queue_size=1)
+        support.wait_until(lambda: commands.get_num_connections() > 0, "the vehicle takes commands")
+        commands.publish(late)
+        rospy.sleep(0.5)
+        self.assertEqual(self.vehicle.speed, 0.0)
+        self.send(ActionCommand.START)
+        self.vehicle.wait_until_moving()
 
     def test_a_stop_of_a_standing_vehicle_is_finished(self):
         support.wait_for_status(self.send(ActionCommand.STOP), CommandStatus.FINISHED)
