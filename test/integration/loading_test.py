@@ -249,7 +249,7 @@ class LoadingTest(unittest.TestCase):
 
     def test_takes_the_name_of_one_that_was_killed(self):
         with component([ACTION]) as first:
-            first.service("external_command/command_status", GetCommandStatus)
+            support.wait_until(lambda: "is ready" in first.output, "it is ready")
             first.send_signal(signal.SIGKILL)
             first.wait_for_end()
             first.start()
