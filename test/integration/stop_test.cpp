@@ -44,8 +44,16 @@ class Inbox {
 
   /// False where `count` messages have not come within 10 s.
   bool waitFor(std::size_t count) {
+    return waitFor(count, [](const Message&) { return true; });
+  }
+
+  /// The same for messages that match.
+  template <class Predicate>
+  bool waitFor(std::size_t count, const Predicate& matches) {
     std::unique_lock<std::mutex> lock(mutex_);
-    return changed_.wait_for(lock, std::chrono::seconds(10), [&] { return messages_.size() >= count; });
+    return changed_.wait_for(lock, std::chrono::seconds(10), [&] {
+      return static_cast<std::size_t>(std::count_if(messages_.begin(), messages_.end(), matches)) >= count;
+    });
   }
 
   std::vector<Message> messages() {
@@ -261,9 +269,12 @@ TEST_F(Stop, ActsUnderTheIdOfAMotionCommandThatRuns) {
 
 TEST_F(Stop, KeepsWhatWaitsForAThreadFromBeingSent) {
   Inbox<PlanningCommand> commands("planning/command");
+  Inbox<CommandStatus> statuses("external_command/status");
   const auto gate = planner_->holdPlans(false);
   std::vector<std::future<CommandStatus>> plans;
   for (int i = 0; i < 8; ++i) plans.push_back(plan());
+  ASSERT_TRUE(statuses.waitFor(8, [](const CommandStatus& status) { return status.message == "being planned"; }))
+      << "all have arrived";
   ASSERT_TRUE(gate->waitForEntered(2));
   send(ActionCommand::STOP);
   gate->open();
