@@ -23,14 +23,15 @@ Polygon moved(const Polygon& polygon, const Point2d& origin, const std::string& 
   return Polygon(points, name);
 }
 
-Region regionOf(const CoverageArea& area, const Point2d& origin) {
+Region regionOf(const CoverageArea& area, const Point2d& origin, const Checkpoint& checkpoint) {
   Region::Parts parts;
   parts.drivable = moved(area.outer, origin, "the area");
   for (std::size_t i = 0; i < area.holes.size(); ++i) {
+    checkpoint();
     parts.non_drivable.push_back(moved(area.holes[i], origin, text("hole ", i)));
   }
   if (area.grid) {
-    for (const Polygon& obstacle : gridObstacles(*area.grid, area.outer)) {
+    for (const Polygon& obstacle : gridObstacles(*area.grid, area.outer, checkpoint)) {
       parts.non_drivable.push_back(moved(obstacle, origin, "an obstacle of the grid"));
     }
   }
@@ -65,7 +66,7 @@ Field::Field(const VehicleParams& vehicle, const CoverageParams& params, const C
       origin_(originOf(area)),
       reach_(
           std::hypot(std::max(vehicle.wheelbase + vehicle.front_overhang, vehicle.rear_overhang), vehicle.width / 2.0)),
-      region_(regionOf(area, origin_)),
+      region_(regionOf(area, origin_, checkpoint())),
       checker_(vehicle, params.margin, region_),
       bare_checker_(vehicle, 0.0, region_) {
   if (start) start_ = Pose2d{start->x - origin_.x(), start->y - origin_.y(), start->heading};
@@ -90,7 +91,7 @@ void Field::setShapes(const CoverageArea& area) {
   const shapes::Shapes whole = only(shapeOf(region_.drivable()->points()));
   std::vector<shapes::Shapes> holes;
   for (const Polygon& hole : region_.nonDrivable()) holes.push_back(only(shapeOf(hole.points())));
-  free_ = difference(whole, unionOf(holes));
+  free_ = difference(whole, unionOf(holes, checkpoint()));
   if (!free_.empty()) return;
   for (std::size_t i = 0; i < area.holes.size(); ++i) {
     if (!difference(whole, holes[i]).empty()) continue;
@@ -115,7 +116,7 @@ void Field::requireFreeStart() const {
 
 void Field::setGoal() {
   const double tool = params_.swath_width / 2.0, half = std::max(vehicle_.width / 2.0, tool);
-  const shapes::Shapes core = grown(free_, -half);
+  const shapes::Shapes core = grown(free_, -half, checkpoint());
   if (core.empty()) {
     const BoundingBox& box = region_.drivable()->box();
     throw InvalidRequest(text("the area is smaller than the vehicle: in its ", metres(box.max.x() - box.min.x()), " x ",
@@ -129,7 +130,7 @@ void Field::setGoal() {
     const auto smaller = [](const auto& a, const auto& b) { return areaOf(only(a)) < areaOf(only(b)); };
     part = only(*std::max_element(core.begin(), core.end(), smaller));
   }
-  goal_ = intersection(grown(part, tool), free_);
+  goal_ = intersection(grown(part, tool, checkpoint()), free_);
   const auto& inside = part.front().outer().front();
   workable_ = partAt(free_, Point2d(inside.x(), inside.y()));
 }
@@ -162,7 +163,7 @@ CoverageGrid Field::makeGrid() const {
   CoverageGrid grid(box, std::max(width() / kCellsPerSwath, std::sqrt(size.x() * size.y() / kMaxCells)));
   grid.set(free_, kFree);
   grid.set(goal_, kGoal);
-  grid.set(grown(free_, -vehicle_.width / 2.0 - params_.margin), kOpen);
+  grid.set(grown(free_, -vehicle_.width / 2.0 - params_.margin, checkpoint()), kOpen);
   return grid;
 }
 

@@ -27,6 +27,9 @@ class Field {
   const CancelToken& cancel() const { return cancel_; }
   /// To be called in every loop. @throws Cancelled, PlanningTimeout
   void poll() const;
+  Checkpoint checkpoint() const {
+    return [this] { poll(); };
+  }
   double timeUsed() const;  ///< as share of the budget
 
   const Point2d& origin() const { return origin_; }

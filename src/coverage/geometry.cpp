@@ -5,6 +5,11 @@
 #include <boost/geometry.hpp>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
+
+#include "external_command/core/error.h"
+#include "external_command/core/text.h"
 
 namespace external_command {
 
@@ -20,12 +25,17 @@ constexpr int kPointsPerCircle = 72;
 constexpr double kSpeck = 1e-3;  // [m^2] smaller pieces are rounding
 constexpr int kAttempts = 4;
 
-Shapes buffered(const Shape& from, double distance) {
+/// nullopt where the library finds that it has gone wrong, as with outlines whose walls are thin.
+std::optional<Shapes> buffered(const Shape& from, double distance) {
   namespace strategy = bg::strategy::buffer;
   Shapes result;
-  bg::buffer(from, result, strategy::distance_symmetric<double>(distance), strategy::side_straight(),
-             strategy::join_round(kPointsPerCircle), strategy::end_round(kPointsPerCircle),
-             strategy::point_circle(kPointsPerCircle));
+  try {
+    bg::buffer(from, result, strategy::distance_symmetric<double>(distance), strategy::side_straight(),
+               strategy::join_round(kPointsPerCircle), strategy::end_round(kPointsPerCircle),
+               strategy::point_circle(kPointsPerCircle));
+  } catch (const InternalError&) {
+    return std::nullopt;
+  }
   return result;
 }
 
@@ -62,24 +72,29 @@ Shapes grownRing(Ring ring, double distance) {
   Shape shape;
   shape.outer() = std::move(ring);
   if (distance == 0.0) return only(shape);
-  Shapes result;
+  std::optional<Shapes> last;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const double factor = 1.0 + 1e-3 * attempt * (attempt % 2 == 0 ? 1 : -1);
-    result = buffered(shape, distance * factor);
-    dropSpecks(&result);
-    if (isPlausible(shape, result, distance)) break;
+    std::optional<Shapes> result = buffered(shape, distance * factor);
+    if (!result) continue;
+    dropSpecks(&*result);
+    last = std::move(result);
+    if (isPlausible(shape, *last, distance)) break;
   }
-  return result;
+  if (last) return *std::move(last);
+  throw InternalError(text("a border of ", shape.outer().size() - 1, " corners cannot be moved by ", metres(distance),
+                           "; give it fewer corners, or a little more room between them"));
 }
 
 /// Ring by ring, which takes far less time than all at once where there are many holes.
-Shapes withRingsMoved(const Shape& shape, double border_outwards, double holes_outwards) {
+Shapes withRingsMoved(const Shape& shape, double border_outwards, double holes_outwards, const Checkpoint& checkpoint) {
   std::vector<Shapes> holes;
   for (const auto& hole : shape.inners()) {
+    checkpoint();
     holes.push_back(grownRing(Ring(hole.rbegin(), hole.rend()), holes_outwards));
   }
   const Shapes whole = grownRing(Ring(shape.outer().begin(), shape.outer().end()), border_outwards);
-  return holes.empty() ? whole : difference(whole, unionOf(std::move(holes)));
+  return holes.empty() ? whole : difference(whole, unionOf(std::move(holes), checkpoint));
 }
 
 }  // namespace
@@ -121,11 +136,12 @@ Ring simplified(const Ring& ring, double distance) {
 }
 
 /// In pairs, then those in pairs, so that most unions are of small shapes.
-Shapes unionOf(std::vector<Shapes> all) {
+Shapes unionOf(std::vector<Shapes> all, const Checkpoint& checkpoint) {
   if (all.empty()) return {};
   while (all.size() > 1) {
     std::vector<Shapes> fewer((all.size() + 1) / 2);
     for (std::size_t i = 0; i < fewer.size(); ++i) {
+      checkpoint();
       if (2 * i + 1 < all.size()) {
         bg::union_(all[2 * i], all[2 * i + 1], fewer[i]);
       } else {
@@ -153,16 +169,16 @@ Shapes intersection(const Shapes& a, const Shapes& b) {
   return result;
 }
 
-Shapes grown(const Shapes& of, double distance) {
+Shapes grown(const Shapes& of, double distance, const Checkpoint& checkpoint) {
   std::vector<Shapes> parts;
-  for (const Shape& shape : of) parts.push_back(withRingsMoved(shape, distance, -distance));
-  return unionOf(std::move(parts));
+  for (const Shape& shape : of) parts.push_back(withRingsMoved(shape, distance, -distance, checkpoint));
+  return unionOf(std::move(parts), checkpoint);
 }
 
-Shapes inset(const Shapes& area, double border, double holes) {
+Shapes inset(const Shapes& area, double border, double holes, const Checkpoint& checkpoint) {
   Shapes result;
   for (const Shape& shape : area) {
-    for (Shape& part : withRingsMoved(shape, -border, holes)) result.push_back(std::move(part));
+    for (Shape& part : withRingsMoved(shape, -border, holes, checkpoint)) result.push_back(std::move(part));
   }
   return result;
 }

@@ -6,6 +6,7 @@
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/polygon.hpp>
 #include <boost/geometry/geometries/ring.hpp>
+#include <functional>
 #include <vector>
 
 #include "external_command/core/pose.h"
@@ -22,6 +23,9 @@ using Ring = boost::geometry::model::ring<Point, false, true>;
 using Shape = boost::geometry::model::polygon<Point, false, true>;
 using Shapes = boost::geometry::model::multi_polygon<Shape>;
 }  // namespace shapes
+
+/// Called between the steps of what may take long; what it throws ends that.
+using Checkpoint = std::function<void()>;
 
 /// The points of a closed ring, the first not repeated.
 std::vector<Point2d> pointsOf(const shapes::Ring& ring);
@@ -44,16 +48,17 @@ shapes::Ring hullOf(const shapes::Shape& shape);
 /// The ring without the points that lie within `distance` [m] of the line between their neighbours.
 shapes::Ring simplified(const shapes::Ring& ring, double distance);
 
-shapes::Shapes unionOf(std::vector<shapes::Shapes> all);
+/// This and all below throw InternalError where Boost.Geometry finds that it has gone wrong.
+shapes::Shapes unionOf(std::vector<shapes::Shapes> all, const Checkpoint& checkpoint);
 
 shapes::Shapes difference(const shapes::Shapes& from, const shapes::Shapes& what);
 shapes::Shapes intersection(const shapes::Shapes& a, const shapes::Shapes& b);
 
 /// Grown by `distance` [m] all round, or shrunk where that is negative; round corners.
-shapes::Shapes grown(const shapes::Shapes& shapes, double distance);
+shapes::Shapes grown(const shapes::Shapes& shapes, double distance, const Checkpoint& checkpoint);
 
 /// The area with its border moved inwards by `border` and its holes grown by `holes` [m], neither negative.
-shapes::Shapes inset(const shapes::Shapes& area, double border, double holes);
+shapes::Shapes inset(const shapes::Shapes& area, double border, double holes, const Checkpoint& checkpoint);
 
 /// The one of `shapes` that holds `point` or is nearest to it; empty if there is none.
 shapes::Shapes partAt(const shapes::Shapes& shapes, const Point2d& point);

@@ -5,24 +5,30 @@
 #include <cmath>
 #include <utility>
 
+#include "external_command/core/error.h"
+#include "external_command/core/text.h"
 #include "geometry.h"
 
 namespace external_command {
 
 namespace {
 
-constexpr double kFinest = 0.2;     ///< side of the blocks that cells are taken together to, at least [m]
-constexpr double kNear = 1.0;       ///< cells farther from the area's box are left out [m]
-constexpr double kHullShare = 1.3;  ///< of an obstacle's area that its convex hull may have and be taken for it
-constexpr double kSmall = 3.0;      ///< an obstacle up to this size is taken as its hull [m]
-constexpr double kRoom = 6.0;       ///< free room inside an obstacle that is smaller holds no vehicle [m^2]
+constexpr double kFinest = 0.2;            ///< side of the blocks that cells are taken together to, at least [m]
+constexpr double kNear = 1.0;              ///< cells farther from the area's box are left out [m]
+constexpr double kHullShare = 1.3;         ///< of an obstacle's area that its convex hull may have and be taken for it
+constexpr double kSmall = 3.0;             ///< an obstacle up to this size is taken as its hull [m]
+constexpr std::size_t kMostRuns = 100000;  ///< rows of blocks side by side; bounds the memory
+constexpr double kRoom = 6.0;              ///< free room inside an obstacle that is smaller holds no vehicle [m^2]
 
 using Block = std::pair<long, long>;  // row, column
 
 class Outliner {
  public:
-  Outliner(const OccupancyGrid& grid, const Polygon& within)
-      : grid_(grid), box_(within.box()), cells_(std::max(1L, std::lround(kFinest / grid.resolution))) {}
+  Outliner(const OccupancyGrid& grid, const Polygon& within, const Checkpoint& checkpoint)
+      : grid_(grid),
+        box_(within.box()),
+        checkpoint_(checkpoint),
+        cells_(std::max(1L, std::lround(kFinest / grid.resolution))) {}
 
   std::vector<Polygon> outline() {
     findBlocks();
@@ -31,10 +37,11 @@ class Outliner {
       const Block first = *block;
       long end = first.second;
       while (block != blocks_.end() && block->first == first.first && block->second == end) ++block, ++end;
+      requireFew(runs.size());
       runs.push_back(only(runShape(first.first, first.second, end)));
     }
     std::vector<Polygon> polygons;
-    for (const shapes::Shape& shape : unionOf(std::move(runs))) addOutlines(shape, &polygons);
+    for (const shapes::Shape& shape : unionOf(std::move(runs), checkpoint_)) addOutlines(shape, &polygons);
     if (grid_.outside_is_blocked) addOutside(&polygons);
     return polygons;
   }
@@ -46,8 +53,15 @@ class Outliner {
 
   bool isBlocked(int value) const { return value < 0 ? grid_.unknown_is_blocked : value >= grid_.blocked_from; }
 
+  static void requireFew(std::size_t runs) {
+    if (runs < kMostRuns) return;
+    throw InvalidRequest(text("the obstacle grid has more than ", kMostRuns, " rows of obstacles in the area; give a ",
+                              "smaller area, or a grid with less noise"));
+  }
+
   void findBlocks() {
     for (std::size_t i = 0; i < grid_.cells.size(); ++i) {
+      if (i % grid_.width == 0) checkpoint_();
       if (!isBlocked(grid_.cells[i])) continue;
       const auto column = static_cast<long>(i % grid_.width), row = static_cast<long>(i / grid_.width);
       const Point2d at = toMap((static_cast<double>(column) + 0.5) * grid_.resolution,
@@ -68,6 +82,7 @@ class Outliner {
 
   /// A polygon has no holes: a shape around free room, a fence for example, is cut in two across it.
   void addOutlines(const shapes::Shape& shape, std::vector<Polygon>* polygons) const {
+    checkpoint_();
     const auto is_room = [](const auto& ring) {
       return std::abs(areaOf(shapes::Ring(ring.begin(), ring.end()))) > kRoom;
     };
@@ -114,23 +129,24 @@ class Outliner {
     Polygon polygon(pointsOf(hull), "an obstacle of the grid");
     const bool is_small = (polygon.box().max - polygon.box().min).maxCoeff() < kSmall;
     if (is_small || polygon.area() < kHullShare * areaOf(shape.outer())) return polygon;
-    const shapes::Shapes larger = grown(only(shape), side() / 2.0);
+    const shapes::Shapes larger = grown(only(shape), side() / 2.0, checkpoint_);
     return {pointsOf(simplified(larger.front().outer(), side() / 2.0)), "an obstacle of the grid"};
   }
 
   const OccupancyGrid& grid_;
   const BoundingBox& box_;
+  const Checkpoint& checkpoint_;
   long cells_;                 ///< in a block, along each side
   std::vector<Block> blocks_;  ///< in order
 };
 
 }  // namespace
 
-std::vector<Polygon> gridObstacles(const OccupancyGrid& grid, const Polygon& within) {
+std::vector<Polygon> gridObstacles(const OccupancyGrid& grid, const Polygon& within, const Checkpoint& checkpoint) {
   Region::Parts parts;
   parts.grid = grid;
   const Region checked(std::move(parts));  // refuses a grid whose size and cells do not agree
-  return Outliner(grid, within).outline();
+  return Outliner(grid, within, checkpoint).outline();
 }
 
 }  // namespace external_command

@@ -5,11 +5,12 @@
 
 #include "external_command/core/polygon.h"
 #include "external_command/free_space/region.h"
+#include "geometry.h"
 
 namespace external_command {
 
 /// Outlines of the cells near `within` that are obstacles, and what lies beyond the grid where that is: a little larger
 /// than the cells, so that they can be simple, and without free room that is too small for a vehicle. They may touch.
-std::vector<Polygon> gridObstacles(const OccupancyGrid& grid, const Polygon& within);
+std::vector<Polygon> gridObstacles(const OccupancyGrid& grid, const Polygon& within, const Checkpoint& checkpoint);
 
 }  // namespace external_command

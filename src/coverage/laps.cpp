@@ -187,11 +187,11 @@ std::vector<Work> planLap(const Field& field, int number, int around_holes, doub
   const double pitch = field.width() - field.params().overlap;
   const double border = field.width() / 2.0 + number * pitch;
   const double most = around_holes > 0 ? field.width() / 2.0 + around_holes * pitch : 0.0;
-  const shapes::Shapes lines = inset(field.workable(), border, std::min(border, most));
+  const shapes::Shapes lines = inset(field.workable(), border, std::min(border, most), field.checkpoint());
   const double inner = border + field.width() / 2.0;
   grid->clear(kInner | kOwn);
-  grid->set(inset(field.workable(), inner, std::min(inner, most)), kInner);
-  if (number > 0) grid->set(inset(field.workable(), border, std::min(border, most)), kOwn);
+  grid->set(inset(field.workable(), inner, std::min(inner, most), field.checkpoint()), kInner);
+  if (number > 0) grid->set(inset(field.workable(), border, std::min(border, most), field.checkpoint()), kOwn);
   std::vector<Work> works;
   const auto add = [&](const shapes::Ring& line, bool is_ring) {
     const Ring ring(pointsOf(line), field.radius());

@@ -19,7 +19,7 @@ CoverageGrid fineGrid(const Field& field) {
   const BoundingBox& box = field.region().drivable()->box();
   const Point2d size = box.max - box.min;
   CoverageGrid grid(box, std::max(0.2, std::sqrt(size.x() * size.y() / kFineCells)));
-  grid.set(grown(field.free(), -0.95 * field.vehicle().width / 2.0), kMarked);
+  grid.set(grown(field.free(), -0.95 * field.vehicle().width / 2.0, field.checkpoint()), kMarked);
   return grid;
 }
 

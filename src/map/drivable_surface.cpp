@@ -7,6 +7,7 @@
 #include <boost/geometry/geometries/multi_polygon.hpp>
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/polygon.hpp>
+#include <optional>
 #include <utility>
 
 #include "external_command/core/error.h"
@@ -62,16 +63,27 @@ BoostMultiPolygon widened(const Lane& lane, double s, double radius, double half
   return surface;
 }
 
+/// `whole` and the widened lane; nullopt where the library fails.
+std::optional<BoostMultiPolygon> unionOf(const BoostMultiPolygon& whole, const Lane& lane, double s, double radius,
+                                         double half_width, const Point2d& center) {
+  try {
+    const BoostMultiPolygon piece = widened(lane, s, radius, half_width, center);
+    BoostMultiPolygon joined;
+    bg::union_(whole, piece, joined);
+    const bool is_whole = bg::area(joined) > std::max(bg::area(whole), bg::area(piece)) - kLostArea;
+    return is_whole ? std::optional<BoostMultiPolygon>(std::move(joined)) : std::nullopt;
+  } catch (const InternalError&) {  // of its assertions
+    return std::nullopt;
+  }
+}
+
 /// Adds the widened lane to `whole`.
 void add(const Lane& lane, double s, double radius, double extra, const Point2d& center, BoostMultiPolygon* whole) {
   for (int i = 0; i < kNudges; ++i) {
     const double half_width = lane.widthAt(s) / 2.0 + extra + i * kNudge;
-    const BoostMultiPolygon piece = widened(lane, s, radius, half_width, center);
-    BoostMultiPolygon joined;
-    bg::union_(*whole, piece, joined);
-    const bool is_whole = bg::area(joined) > std::max(bg::area(*whole), bg::area(piece)) - kLostArea;
-    if (!is_whole) continue;
-    *whole = std::move(joined);
+    auto joined = unionOf(*whole, lane, s, radius, half_width, center);
+    if (!joined) continue;
+    *whole = *std::move(joined);
     return;
   }
 }

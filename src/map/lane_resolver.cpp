@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 #include "external_command/core/text.h"
@@ -15,6 +16,15 @@ namespace {
 
 constexpr double kLengthTolerance = 1.0;  // [m], and ...
 constexpr double kLengthShare = 0.02;     // ... this much of the length
+
+constexpr double kLongestSegment = 10000.0;  ///< of a centre line, between two points [m]
+
+/// The first point that lies too far from the one before it.
+const Point2d* findLeap(const std::vector<Point2d>& points) {
+  const auto is_leap = [](const Point2d& a, const Point2d& b) { return (b - a).norm() > kLongestSegment; };
+  const auto found = std::adjacent_find(points.begin(), points.end(), is_leap);
+  return found == points.end() ? nullptr : &*std::next(found);
+}
 
 const Point2d* findImplausible(const std::vector<Point2d>& points) {
   const auto found = std::find_if_not(points.begin(), points.end(), isPlausible);
@@ -123,6 +133,12 @@ bool LaneResolver::clean(LaneData* lane) {
   }
   if (const Point2d* point = findImplausible(lane->center)) {
     unusable_.add(lane->id, ": point ", point - lane->center.data(), " of the centre line is ", at(*point));
+    return false;
+  }
+  if (const Point2d* point = findLeap(lane->center)) {
+    unusable_.add(lane->id, ": point ", point - lane->center.data(), " of the centre line, ", at(*point), ", lies ",
+                  metres((*point - *std::prev(point)).norm()), " from the one before it; the limit is ",
+                  metres(kLongestSegment));
     return false;
   }
   cleanBoundary(lane->id, "left", &lane->left);

@@ -92,6 +92,21 @@ class HostileRequestsTest(unittest.TestCase):
             self.assertLess(resident(started.pid) - before, MOST_MEMORY)
             self.assert_stops(started)
 
+    def test_drops_messages_of_no_bytes_for_all_its_subscribers(self):
+        """Several processors listen to the planner's reports; roscpp goes through their callbacks one by one."""
+        with component() as started:
+            self.assert_stops(started)
+            raw = fuzz_bytes.raw_class(msg.CommandStatus)
+            publisher = rospy.Publisher(NAMESPACE + "/planning/command_status", raw, queue_size=100)
+            support.wait_until(lambda: publisher.get_num_connections() > 0, "somebody listens to reports")
+            for _ in range(100):
+                publisher.publish(raw(data=b""))
+            support.wait_until(lambda: "planning/command_status" in started.output, "the loss is told of")
+            publisher.publish(raw(data=fuzz_bytes.serialized(msg.CommandStatus(command_id=5, status=99))))
+            support.wait_until(lambda: "a report about command 5 is ignored" in started.output, "the next one is heard")
+            publisher.unregister()
+            self.assert_stops(started)
+
     def test_refuses_long_texts_shortly_but_stops_whatever_texts_a_stop_has(self):
         with component() as started:
             drive = started.service("external_command/free_space", FreeSpace)

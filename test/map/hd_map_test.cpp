@@ -92,6 +92,19 @@ TEST_F(TwoLaneRoad, DropsLanesWithCoordinatesThatAreNoPlaceOnEarth) {
   }
 }
 
+TEST_F(TwoLaneRoad, DropsALaneWhoseCentreLineLeapsFurtherThanAnyRoadIsStraight) {
+  builder["far_right"].center.back() += Point2d(1e7, 0.0);
+  const auto map = builder.build();
+  EXPECT_FALSE(map->findLane("far_right"));
+  EXPECT_TRUE(warnsOf(map->warnings(), 1, "from the one before it; the limit is 10000.00 m"));
+  EXPECT_LT(map->box().max.norm(), 1e4);
+}
+
+TEST_F(TwoLaneRoad, KeepsALaneThatIsStraightForKilometres) {
+  builder["far_right"].center.back() += Point2d(9000.0, 0.0);
+  EXPECT_TRUE(builder.build()->findLane("far_right"));
+}
+
 TEST_F(TwoLaneRoad, KeepsTheFirstOfTwoLanesWithOneId) {
   builder.lane("left", {500, 500}, {600, 500});
   const auto map = builder.build();

@@ -38,11 +38,22 @@ class BoundedSubscriptionHelper : public ros::SubscriptionCallbackHelperT<const 
       return Base::deserialize(params);
     } catch (...) {
       noteDroppedMessage(topic_, *params.connection_header);
-      return {};
+      return params.length == 0 ? nothing() : ros::VoidConstPtr();
     }
   }
 
+  void call(ros::SubscriptionCallbackHelperCallParams& params) override {
+    if (params.event.getConstMessage() != nothing()) Base::call(params);
+  }
+
  private:
+  /// In place of a dropped message of no bytes: roscpp would take that to the next subscriber of this process once
+  /// more, as a buffer that it has freed (MessageDeserializer tells by `num_bytes > 0` whether it has tried before).
+  static ros::VoidConstPtr nothing() {
+    static const ros::VoidConstPtr message = boost::make_shared<Message>();
+    return message;
+  }
+
   const std::string topic_;
   const RequestLimits limits_;
   const LongTexts long_texts_;

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// Obstacle grids of any shape: an area is planned, or refused with a reason, and in time.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <random>
+#include <thread>
+
+#include "external_command/core/error.h"
+#include "external_command/coverage/coverage_planner.h"
+
+namespace external_command {
+namespace {
+
+constexpr unsigned kCells = 150;
+constexpr double kResolution = 0.2;  // [m]
+
+CoverageArea areaWith(OccupancyGrid grid) {
+  const double side = grid.width * grid.resolution;
+  CoverageArea area{Polygon({{0, 0}, {side, 0}, {side, side}, {0, side}}, "yard"), {}};
+  area.grid = std::move(grid);
+  return area;
+}
+
+OccupancyGrid emptyGrid(unsigned cells = kCells) {
+  OccupancyGrid grid;
+  grid.resolution = kResolution;
+  grid.width = grid.height = cells;
+  grid.cells.assign(std::size_t{cells} * cells, 0);
+  return grid;
+}
+
+/// Walls one cell wide that turn at random, cross each other and themselves.
+OccupancyGrid gridOfWalls(unsigned seed) {
+  OccupancyGrid grid = emptyGrid();
+  std::mt19937 random(seed);
+  const auto below = [&random](int limit) { return std::uniform_int_distribution<int>(0, limit - 1)(random); };
+  for (int wall = 0; wall < 6; ++wall) {
+    int x = below(kCells), y = below(kCells);
+    for (int turn = 0; turn < 12; ++turn) {
+      const int dx = below(3) - 1, dy = below(3) - 1;
+      for (int length = below(30); length > 0; --length) {
+        x = std::clamp(x + dx, 0, static_cast<int>(kCells) - 1);
+        y = std::clamp(y + dy, 0, static_cast<int>(kCells) - 1);
+        grid.cells[static_cast<std::size_t>(y) * kCells + static_cast<std::size_t>(x)] = 100;
+      }
+    }
+  }
+  return grid;
+}
+
+OccupancyGrid gridOfNoise(double share, unsigned cells) {
+  OccupancyGrid grid = emptyGrid(cells);
+  std::mt19937 random(1);
+  std::bernoulli_distribution is_filled(share);
+  for (auto& cell : grid.cells) cell = is_filled(random) ? 100 : 0;
+  return grid;
+}
+
+CoverageParams paramsFor(double time_budget) {
+  CoverageParams params;
+  params.time_budget = time_budget;
+  return params;
+}
+
+/// How long it took [s]. Anything but an Error ends the test.
+double planOrRefuse(const CoverageArea& area, double time_budget, const CancelToken& cancel = {}) {
+  const auto begin = std::chrono::steady_clock::now();
+  try {
+    CoveragePlanner({}, paramsFor(time_budget)).plan(area, std::nullopt, {}, cancel);
+  } catch (const Error& error) {
+    EXPECT_STRNE(error.what(), "");
+  }
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+TEST(GridObstacles, OfThinWallsArePlannedRoundOrRefused) {
+  for (unsigned seed = 1; seed <= 25; ++seed) planOrRefuse(areaWith(gridOfWalls(seed)), 0.3);
+}
+
+TEST(GridObstacles, OfNoiseAreGivenUpInTime) {
+  for (const double share : {0.02, 0.2, 0.5}) {
+    EXPECT_LT(planOrRefuse(areaWith(gridOfNoise(share, 1000)), 0.5), 5.0) << share << " of the cells";
+  }
+}
+
+TEST(GridObstacles, OfNoiseEndWhenTheyAreCancelled) {
+  const CancelSource cancel;
+  std::thread later([&cancel] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    cancel.cancel();
+  });
+  EXPECT_LT(planOrRefuse(areaWith(gridOfNoise(0.2, 1000)), 3600.0, cancel.token()), 5.0);
+  later.join();
+}
+
+TEST(GridObstacles, TooManyAreRefused) {
+  try {
+    CoveragePlanner({}, paramsFor(3600.0)).plan(areaWith(gridOfNoise(0.3, 2000)), std::nullopt, {}, {});
+    FAIL() << "it was planned";
+  } catch (const InvalidRequest& error) {
+    EXPECT_NE(std::string(error.what()).find("obstacle grid"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace external_command
