@@ -31,10 +31,15 @@ void LabelSearch::arrive(std::int32_t index, const SearchLabel& label) {
     if (place.s >= label.s - kSamePlace && place.s <= label.free_to) arrive(index, label, i, place.s);
   }
   if (label.move != Move::kStart) return;
+  const LanePoint here{label.lane, label.s};
+  // The way point before may itself lie behind the place where it counted as reached.
+  const LanePoint before = label.parent < 0 ? here : work_.reached_targets[label.candidate].place;
   for (std::size_t i = 0; i < work_.targets.size(); ++i) {
     const LanePoint place = work_.targets[i].place;
     if (blocked_.contains(place.lane, place.s)) continue;
-    if (isAhead(label, place, params_.stopping_error, 0)) arrive(index, label, static_cast<std::int32_t>(i), label.s);
+    if (isAhead(here, place, params_.stopping_error, 0) || isAhead(before, place, params_.stopping_error, 0)) {
+      arrive(index, label, static_cast<std::int32_t>(i), label.s);
+    }
   }
 }
 
@@ -51,14 +56,14 @@ void LabelSearch::arrive(std::int32_t index, const SearchLabel& label, std::int3
   enqueue(store(arrival));
 }
 
-/// Whether `label` lies at most `reach` [m] ahead of `place`, on its lane or those that follow.
-bool LabelSearch::isAhead(const SearchLabel& label, const LanePoint& place, double reach, int lanes) const {
-  if (label.lane == place.lane && label.s >= place.s) return label.s - place.s <= reach;
+/// Whether `point` lies at most `reach` [m] ahead of `place`, on its lane or those that follow.
+bool LabelSearch::isAhead(const LanePoint& point, const LanePoint& place, double reach, int lanes) const {
+  if (point.lane == place.lane && point.s >= place.s) return point.s - place.s <= reach;
   const double rest = graph_.length(place.lane) - place.s;
   if (rest > reach || lanes == kMaxLanesBehind) return false;
   const Span<LaneGraph::Link> successors = graph_.successors(place.lane);
   return std::any_of(successors.begin(), successors.end(), [&](const LaneGraph::Link& next) {
-    return isAhead(label, {next.lane, next.entry}, reach - rest, lanes + 1);
+    return isAhead(point, {next.lane, next.entry}, reach - rest, lanes + 1);
   });
 }
 

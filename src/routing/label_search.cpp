@@ -33,6 +33,7 @@ LabelSearch::LabelSearch(const LaneGraph& graph, const RouterParams& params, Cha
 void LabelSearch::beginLeg(const std::vector<LanePoint>& targets) {
   ++work_.leg;
   work_.queue.clear();
+  work_.reached_targets.swap(work_.targets);
   work_.targets.clear();
   entries_.clear();
   reached_lanes_ = 0;

@@ -77,7 +77,7 @@ class LabelSearch {
   void expand(std::int32_t index);
   void arrive(std::int32_t index, const SearchLabel& label);
   void arrive(std::int32_t index, const SearchLabel& label, std::int32_t target, double s);
-  bool isAhead(const SearchLabel& label, const LanePoint& place, double reach, int lanes) const;
+  bool isAhead(const LanePoint& point, const LanePoint& place, double reach, int lanes) const;
   void follow(std::int32_t index, const SearchLabel& label);
   void change(std::int32_t index, const SearchLabel& label, const Neighbour& neighbour);
   void change(std::int32_t index, const Neighbour& neighbour, double old_s, const Interval& new_part);

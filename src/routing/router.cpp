@@ -66,6 +66,19 @@ void warnOfTightChanges(const HdMap& map, double min_length, Route* route) {
   }
 }
 
+/// Way points that lie behind one another have counted as reached, and the goal after them.
+void warnOfGoalBehind(const HdMap& map, const LanePoint& goal, double stopping_error, Route* route) {
+  const RouteStep& last = route->steps.back();
+  const Point2d end = map.lane(last.lane).center.pointAt(last.to_s);
+  const double distance = (map.lane(goal.lane).center.pointAt(goal.s) - end).norm();
+  if (distance <= stopping_error + kOutside) return;
+  route->warnings.push_back(text("the route ends ", metres(distance),
+                                 " beyond its goal: way points that lie behind one "
+                                 "another by no more than ",
+                                 metres(stopping_error),
+                                 " (~stopping_error) count as reached, and so does the goal after them"));
+}
+
 }  // namespace
 
 void RouterParams::validate() const {
@@ -115,6 +128,7 @@ Route Router::findRoute(const RouteQuery& request, const CancelToken& cancel) co
   if (found.labels.empty()) throw NoRoute(whyNoRoute(map(), graph, impl_->params, query, cancel));
   Route route = buildRoute(graph, blocked, found.labels);
   warnOfTightChanges(map(), impl_->params.min_lane_change_length, &route);
+  warnOfGoalBehind(map(), query.goals[route.goal], impl_->params.stopping_error, &route);
   return route;
 }
 

@@ -41,6 +41,7 @@ struct SearchWorkspace {
   std::vector<SearchLabel> labels;
   std::vector<QueueEntry> queue;
   std::vector<Target> targets;
+  std::vector<Target> reached_targets;  ///< of the leg before
   std::vector<LaneSlot> lanes;
   std::uint64_t leg = 0;
 };

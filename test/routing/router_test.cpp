@@ -64,6 +64,24 @@ TEST_F(Ring, TakesAWayPointJustBehindTheOneBeforeAsReached) {
   EXPECT_NEAR(route.distance, 60.0, 1e-9);
 }
 
+TEST_F(Ring, TakesWayPointsThatLieEachJustBehindTheOneBeforeAsReached) {
+  const Route route = drive({"a", 10}, {{{"a", 40}}, {{"a", 39.6}}, {{"a", 39.2}}, {{"a", 38.8}}}, {"a", 70});
+  EXPECT_EQ(ids(route), "a");
+  EXPECT_NEAR(route.distance, 60.0, 1e-9);
+  EXPECT_EQ(ids(drive({"a", 10}, {{{"a", 40}}, {{"a", 39.6}}, {{"a", 39.0}}}, {"a", 70})), "a b c a");
+  EXPECT_NEAR(drive({"a", 10}, {{{"b", 0.2}}, {{"a", 99.8}}, {{"a", 99.4}}}, {"b", 50}).distance, 140.0, 1e-9);
+}
+
+TEST_F(Ring, WarnsWhereTheGoalAfterSuchWayPointsLiesBehindTheEnd) {
+  const RouteQuery near{{point("a", 10)}, {{point("a", 40)}}, {point("a", 39.6)}, {}};
+  EXPECT_TRUE(router().findRoute(near, CancelToken()).warnings.empty());
+  const RouteQuery far{{point("a", 10)}, {{point("a", 40)}, {point("a", 39.6)}}, {point("a", 39.2)}, {}};
+  const Route route = router().findRoute(far, CancelToken());
+  EXPECT_NEAR(route.distance, 30.0, 1e-9);
+  ASSERT_EQ(route.warnings.size(), 1u);
+  EXPECT_NE(route.warnings[0].find("ends 0.80 m beyond its goal"), std::string::npos) << route.warnings[0];
+}
+
 TEST_F(Ring, DoesNotTakeAGoalBehindTheStartAsReachedWhereTheBlackListCoversIt) {
   EXPECT_THAT_REFUSED(drive({"a", 60}, {}, {"a", 59.8}, {{"a", 59.7, 59.9}}), NoRoute, "covers the goal");
 }

@@ -70,8 +70,8 @@ struct RouterParams {
   /// A change with less room than `min_lane_change_length` is made only where it saves this much more [m].
   double tight_lane_change_price = 30.0;
 
-  /// A way point or goal that lies no further behind the start, or behind where the way point before was passed, counts
-  /// as reached there [m].
+  /// A way point or goal that lies no further behind the start, behind the way point before it, or behind where that
+  /// was passed, counts as reached there [m].
   double stopping_error = 0.5;
 
   /// @throws InvalidParameter  out of range.
