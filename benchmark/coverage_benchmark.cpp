@@ -15,6 +15,7 @@
 #include "files.h"
 #include "made_fields.h"
 #include "statistics.h"
+#include "support/command_path_check.h"
 
 namespace external_command {
 namespace benchmark {
@@ -126,6 +127,15 @@ void report(const CoverageCheck& check, double seconds, double cpu_seconds, Summ
   summary->times.push_back(seconds);
 }
 
+/// With what a controller could not rely on in the path as it would be sent, its caps of speed made limits.
+CoverageCheck checkedAsSent(const CoverageCase& field, Path path) {
+  CoverageCheck check = checkCoverage(field, path);
+  limitSpeeds(field.vehicle, &path);
+  const std::string fault = commandPathFault(path, field.vehicle);
+  if (!fault.empty()) check.faults.push_back(fault);
+  return check;
+}
+
 void runField(const CoverageCase& field, const Options& options, Summary* summary) {
   std::printf("%-28s ", field.name.c_str());
   CoverageParams params = options.params;
@@ -136,7 +146,7 @@ void runField(const CoverageCase& field, const Options& options, Summary* summar
     const CoverageResult result = CoveragePlanner(field.vehicle, params).plan(field.area(), field.start, {}, {});
     const double cpu_seconds = static_cast<double>(std::clock() - cpu_begin) / CLOCKS_PER_SEC;
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
-    report(checkCoverage(field, result.path), elapsed.count(), cpu_seconds, summary);
+    report(checkedAsSent(field, result.path), elapsed.count(), cpu_seconds, summary);
     if (!options.paths.empty()) writeCoveragePath(result.path, options.paths + "/" + field.name + ".json");
     if (!options.drawings.empty()) drawCoverage(field, result.path, options.drawings + "/" + field.name + ".svg");
   } catch (const Error& error) {

@@ -14,6 +14,7 @@
 #include "parking_case.h"
 #include "path_files.h"
 #include "statistics.h"
+#include "support/command_path_check.h"
 
 namespace external_command {
 namespace benchmark {
@@ -33,7 +34,8 @@ Plans every parking case (*.json), one line each and a summary. Needs no ROS mas
   --svg DIR         draw each path as DIR/CASE.svg
 Columns: time and cost of the first valid path, cost of the final one (in brackets: of best_known.json beside the
 cases), its length [m], gear changes and clearance [m], and the time that the case took on the wall clock and on the
-processor [s]. Cost is length plus 3 m per gear change.
+processor [s]. Cost is length plus 3 m per gear change. A path that a controller could not rely on has a line more.
+Exit code: 0; 1 if there is such a path; 2 if an option is wrong or a file cannot be read or written.
 )";
 
 struct Options {
@@ -45,6 +47,7 @@ struct Options {
 
 struct Summary {
   std::size_t cases = 0;
+  std::size_t faulty = 0;
   std::vector<double> first_times, first_ratios, ratios;
 };
 
@@ -82,6 +85,15 @@ void report(const FreeSpaceResult& result, double best_known, double cpu_seconds
               result.gear_changes, result.min_clearance, result.planning_time, cpu_seconds);
 }
 
+/// As it would be sent: its caps of speed made limits.
+void check(const ParkingCase& task, Path path, Summary* summary) {
+  limitSpeeds(task.vehicle, &path);
+  const std::string fault = commandPathFault(path, task.vehicle, task.start);
+  if (fault.empty()) return;
+  ++summary->faulty;
+  std::printf("  FAULT: %s\n", fault.c_str());
+}
+
 void runCase(const std::string& file, const Options& options, Summary* summary) {
   const ParkingCase task = readParkingCase(file);
   const std::map<std::string, double> best_known = bestKnownCosts(file);
@@ -93,6 +105,7 @@ void runCase(const std::string& file, const Options& options, Summary* summary) 
     const FreeSpaceResult result = planner.plan(task.start, {task.goal}, task.region, {});
     const double cpu_seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     report(result, known == best_known.end() ? 0.0 : known->second, cpu_seconds, summary);
+    check(task, result.path, summary);
     if (!options.paths.empty()) writePath(task, result.path, options.paths + "/" + task.name + ".json");
     if (!options.drawings.empty()) writeDrawing(task, result.path, options.drawings + "/" + task.name + ".svg");
   } catch (const Error& error) {
@@ -109,7 +122,7 @@ void print(const Summary& summary) {
                 median(summary.first_ratios), largest(summary.first_ratios), median(summary.ratios),
                 largest(summary.ratios));
   }
-  std::printf("\n");
+  std::printf("; faulty paths: %zu\n", summary.faulty);
 }
 
 int run(const CommandLine& line) {
@@ -127,7 +140,7 @@ int run(const CommandLine& line) {
     runCase(file, options, &summary);
   }
   print(summary);
-  return 0;
+  return summary.faulty == 0 ? 0 : 1;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "external_command/core/polyline.h"
+#include "support/command_path_check.h"
 
 namespace external_command {
 
@@ -29,8 +30,13 @@ double PathQuality::excessAt(const Point2d& point, double heading) const {
   return excess;
 }
 
-void PathQuality::add(const Path& path, bool told) {
+void PathQuality::add(Path path, bool told) {
   ++paths_;
+  limitSpeeds(vehicle_, &path);
+  CommandPathLimits limits;
+  limits.curvature = false;
+  const std::string fault = commandPathFault(path, vehicle_, std::nullopt, limits);
+  if (!fault.empty() && faulty_++ == 0) first_fault_ = fault;
   std::vector<Point2d> points;
   for (const ReferencePoint& point : path) points.push_back(point.pose().position());
   double kappa = 0.0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "external_command/core/path.h"
@@ -15,13 +16,18 @@ class PathQuality {
  public:
   PathQuality(const HdMap& map, const VehicleParams& vehicle) : map_(map), vehicle_(vehicle) {}
 
-  /// @param told  whether the path is known to bend more than the vehicle can.
-  void add(const Path& path, bool told);
+  /// @param path  its speeds are caps. @param told  whether it is known to bend more than the vehicle can.
+  void add(Path path, bool told);
 
   std::size_t paths() const { return paths_; }
   double shareOverLimit() const;                          ///< of paths with a curvature above the vehicle's
   double shareUntold() const;                             ///< of paths with one that nobody was told of
   double largestKappa() const { return largest_kappa_; }  ///< [1/m]
+
+  /// Of paths that a controller cannot rely on for another reason, see commandPathFault(); and what the first of them
+  /// is.
+  std::size_t faulty() const { return faulty_; }
+  const std::string& firstFault() const { return first_fault_; }
 
   /// By which a corner of the footprint leaves every lane that runs along there, at most [m].
   double largestExcess() const { return largest_excess_; }
@@ -34,7 +40,8 @@ class PathQuality {
 
   const HdMap& map_;
   const VehicleParams& vehicle_;
-  std::size_t paths_ = 0, over_limit_ = 0, untold_ = 0;
+  std::size_t paths_ = 0, over_limit_ = 0, untold_ = 0, faulty_ = 0;
+  std::string first_fault_;
   double largest_kappa_ = 0.0, largest_excess_ = 0.0, largest_offset_ = 0.0;
 };
 

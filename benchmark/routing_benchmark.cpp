@@ -60,7 +60,8 @@ class Measurement {
         << ", \"path_us_per_km_p99\": " << 1e6 * quantile(&path_times_per_km_, 0.99)
         << ", \"paths_looked_at\": " << quality_.paths() << ", \"over_curvature_share\": " << quality_.shareOverLimit()
         << ", \"over_curvature_untold_share\": " << quality_.shareUntold()
-        << ", \"worst_curvature\": " << quality_.largestKappa()
+        << ", \"worst_curvature\": " << quality_.largestKappa() << ", \"faulty_paths\": " << quality_.faulty()
+        << ", \"first_fault\": \"" << quality_.firstFault() << "\""
         << ", \"footprint_out_of_lanes_m\": " << quality_.largestExcess()
         << ", \"axle_out_of_lanes_m\": " << quality_.largestOffset()
         << ", \"no_route_us_median\": " << 1e6 * quantile(&failure_times_, 0.5) << "}";
