@@ -97,6 +97,8 @@ void MotionFlow::addRoute(const RoutingTask& task, double target_speed, const Ca
   plan->path = std::move(path.path);
   const std::vector<std::string> tight = describe(map, path.tight, context_.params().vehicle);
   plan->report.warnings.insert(plan->report.warnings.end(), tight.begin(), tight.end());
+  const std::vector<std::string> left = describe(map, path.left);
+  plan->report.warnings.insert(plan->report.warnings.end(), left.begin(), left.end());
   RoutingResponse& response = plan->command.lane_follow_command;
   response = toRoutingResponse(map, *plan->route);
   response.routing_request = requestOf(map, task, *plan->route);

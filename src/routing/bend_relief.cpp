@@ -79,11 +79,13 @@ class Resampler {
 
 }  // namespace
 
+/// Of the curvature, at a crawl [1/m^2].
+double BendRelief::fastestChange() const { return vehicle_.max_steering_rate / (kCrawl * vehicle_.wheelbase); }
+
 bool BendRelief::isHard(std::size_t place, double kappa, double next_kappa) const {
   const double limit = kNearLimit * vehicle_.maxKappa();
   if (std::abs(kappa) > limit) return true;
-  const double fastest = vehicle_.max_steering_rate / (kCrawl * vehicle_.wheelbase);
-  if (std::abs(next_kappa - kappa) > fastest * step_) return true;
+  if (std::abs(next_kappa - kappa) > fastestChange() * step_) return true;
   const double front = vehicle_.wheelbase + vehicle_.front_overhang;
   if (0.5 * std::abs(kappa) * front * front < kNoticeable) return false;
   return corridor_.frontExcess(course_[place], kappa) > kFrontMayLeave;
@@ -154,8 +156,8 @@ std::vector<Point2d> BendRelief::fitted(const CourseLayout& layout, const Window
     const bool is_end = index == layout.first || index == layout.last;
     fit[i].fixed = is_end || (is_before && window.keeps_begin) || (is_beyond && window.keeps_end);
   }
-  PathFit path(std::move(fit), {step_, kNearLimit * vehicle_.maxKappa(), vehicle_.wheelbase + vehicle_.front_overhang,
-                                vehicle_.rear_overhang});
+  PathFit path(std::move(fit), {step_, kNearLimit * vehicle_.maxKappa(), kNearLimit * fastestChange(),
+                                vehicle_.wheelbase + vehicle_.front_overhang, vehicle_.rear_overhang});
   path.run(cancel);
   return path.points();
 }

@@ -19,9 +19,9 @@ struct CourseLayout {
 class BendRelief {
  public:
   /// @param course  places `step` [m] apart. @param wished  where the path would like to be at each of them.
-  BendRelief(const HdMap& map, const VehicleParams& vehicle, double step, const std::vector<CoursePoint>& course,
-             const std::vector<Point2d>& wished)
-      : corridor_(map, vehicle), vehicle_(vehicle), step_(step), course_(course), wished_(wished) {}
+  BendRelief(const Corridor& corridor, const VehicleParams& vehicle, double step,
+             const std::vector<CoursePoint>& course, const std::vector<Point2d>& wished)
+      : corridor_(corridor), vehicle_(vehicle), step_(step), course_(course), wished_(wished) {}
 
   /// Moves points where the path bends too tightly or too fast, or leads the front of the vehicle out of its lane. New
   /// points there are as far apart as before, about.
@@ -34,12 +34,13 @@ class BendRelief {
     bool keeps_begin, keeps_end;  ///< with the headings there
   };
 
+  double fastestChange() const;
   std::vector<Window> windowsOf(const CourseLayout& layout) const;
   bool isHard(std::size_t place, double kappa, double next_kappa) const;
   std::vector<Point2d> baseOf(const CourseLayout& layout, const Window& window) const;
   std::vector<Point2d> fitted(const CourseLayout& layout, const Window& window, const CancelToken& cancel) const;
 
-  Corridor corridor_;
+  const Corridor& corridor_;
   const VehicleParams& vehicle_;
   const double step_;
   const std::vector<CoursePoint>& course_;

@@ -52,10 +52,18 @@ void Corridor::limit(const CoursePoint& place, FitPoint* point) const {
   };
   const double right_room = believed(right_lane.rightWidthAt(right.s)) / slant(right_lane, right.s) - half;
   const double left_room = believed(left_lane.leftWidthAt(left.s)) / slant(left_lane, left.s) - half;
-  point->wished_low = std::min(own, other) - std::max(0.0, right_room);
-  point->wished_high = std::max(own, other) + std::max(0.0, left_room);
-  point->low = point->wished_low - neighbourWidth(right_lane, right.s, LaneChange::kRight);
-  point->high = point->wished_high + neighbourWidth(left_lane, left.s, LaneChange::kLeft);
+  const double right_end = std::min(own, other), left_end = std::max(own, other);
+  point->wished_low = right_end - std::max(0.0, right_room);
+  point->wished_high = left_end + std::max(0.0, left_room);
+  // The margin is a wish as well: it is given up before the vehicle's curvature is.
+  point->low =
+      right_end - std::max(0.0, right_room + kMargin) - neighbourWidth(right_lane, right.s, LaneChange::kRight);
+  point->high = left_end + std::max(0.0, left_room + kMargin) + neighbourWidth(left_lane, left.s, LaneChange::kLeft);
+}
+
+double Corridor::narrowest(const CoursePoint& place) const {
+  const Lane& lane = map_.lane(place.lane.lane);
+  return believed(std::min(lane.leftWidthAt(place.lane.s), lane.rightWidthAt(place.lane.s)));
 }
 
 double Corridor::frontExcess(const CoursePoint& place, double kappa) const {

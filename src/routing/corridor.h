@@ -13,8 +13,11 @@ class Corridor {
   Corridor(const HdMap& map, const VehicleParams& vehicle) : map_(map), vehicle_(vehicle) {}
 
   /// Sets the limits of `point`, whose base and normal are known, so that half the vehicle's width stays within the
-  /// boundaries at `place`; the centre line is always within the limits.
+  /// boundaries at `place`, and wishes for a margin to them; the centre line is always within the limits.
   void limit(const CoursePoint& place, FitPoint* point) const;
+
+  /// From the centre line to the nearer boundary at `place` [m].
+  double narrowest(const CoursePoint& place) const;
 
   /// By how much the vehicle's front leaves the lane at `place` on the outer side of a bend of `kappa` [1/m] along the
   /// centre line; negative where there is room left [m].

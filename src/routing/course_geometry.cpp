@@ -8,10 +8,11 @@ namespace external_command {
 
 namespace {
 
-constexpr double kTiny = 1e-6;           // [m]
-constexpr double kQuinticPeak = 5.7735;  // largest second derivative of the quintic below: 10 / sqrt(3)
-constexpr double kLead = 5.0;            // [m]
-constexpr double kFullLock = 0.9;        // share of the vehicle's curvature that a smooth change may take
+constexpr double kTiny = 1e-6;               // [m]
+constexpr double kQuinticPeak = 5.7735;      // largest second derivative of the quintic below: 10 / sqrt(3)
+constexpr double kLead = 5.0;                // [m]
+constexpr std::size_t kPollInterval = 4096;  // samples between two looks at the cancel token
+constexpr double kFullLock = 0.9;            // share of the vehicle's curvature that a smooth change may take
 
 /// From 0 to 1 with neither slope nor curvature at the ends.
 double quintic(double t) { return t * t * t * (10.0 + t * (-15.0 + t * 6.0)); }
@@ -75,12 +76,14 @@ void CourseGeometry::addAcross(std::size_t line, double from, double to, double 
   stretches_.push_back(stretch);
 }
 
-std::vector<CoursePoint> CourseGeometry::sample(double step, std::size_t before, std::size_t after) const {
+std::vector<CoursePoint> CourseGeometry::sample(double step, std::size_t before, std::size_t after,
+                                                const CancelToken& cancel) const {
   std::vector<Walker> walkers = this->walkers();
   std::vector<CoursePoint> points;
   points.reserve(before + 1 + after);
   auto stretch = stretches_.begin();
   for (std::size_t i = 0; i <= before + after; ++i) {
+    if (i % kPollInterval == 0) cancel.throwIfCancelled();
     const double x = step * (static_cast<double>(i) - static_cast<double>(before));
     while (x > stretch->end && stretch + 1 != stretches_.end()) ++stretch;
     const double driven = x - stretch->begin;

@@ -29,7 +29,8 @@ class CourseGeometry {
   double leadOut() const { return lines_.back().leadOut(); }
 
   /// Places `step` [m] apart: `before` of them ahead of the start, the start, and `after` more.
-  std::vector<CoursePoint> sample(double step, std::size_t before, std::size_t after) const;
+  /// @throws Cancelled
+  std::vector<CoursePoint> sample(double step, std::size_t before, std::size_t after, const CancelToken& cancel) const;
 
  private:
   /// Walks a line in one direction.

@@ -13,6 +13,7 @@ constexpr double kChange = 64.0;    // of the change of curvature [m^4]: details
 constexpr double kWish = 20.0;      // beyond the own lane
 constexpr double kBody = 50.0;      // front or rear beyond the limits
 constexpr double kCurvature = 1e5;  // beyond the limit [m^2]
+constexpr double kTooFast = 1e4;    // change of curvature beyond its limit [m^4]
 constexpr double kLimit = 5e5;      // reference point beyond its limits
 constexpr double kCenter = 1.0;
 constexpr double kDamping = 1e-3;     // keeps the system regular
@@ -97,7 +98,11 @@ void PathFit::visitResiduals(Visitor&& visit) const {
     const std::array<double, 4> slopes = {
         -bend.slopes[0] / params_.step, (next.slopes[0] - bend.slopes[1]) / params_.step,
         (next.slopes[1] - bend.slopes[2]) / params_.step, next.slopes[2] / params_.step};
-    visit(kChange, (next.kappa - bend.kappa) / params_.step, i - 1, slopes);
+    const double change = (next.kappa - bend.kappa) / params_.step;
+    visit(kChange, change, i - 1, slopes);
+    if (const double excess = beyond(change, -params_.max_change, params_.max_change)) {
+      visit(kTooFast, excess, i - 1, slopes);
+    }
   }
 }
 

@@ -20,10 +20,11 @@ struct FitPoint {
 };
 
 struct FitParams {
-  double step = 0.5;       ///< between two places, about [m]
-  double max_kappa = 0.2;  ///< [1/m]
-  double front = 3.75;     ///< from the reference point to the vehicle's front [m]
-  double rear = 0.95;      ///< and to its rear, positive [m]
+  double step = 0.5;        ///< between two places, about [m]
+  double max_kappa = 0.2;   ///< [1/m]
+  double max_change = 0.1;  ///< of the curvature, as fast as the wheels can be turned at a crawl [1/m^2]
+  double front = 3.75;      ///< from the reference point to the vehicle's front [m]
+  double rear = 0.95;       ///< and to its rear, positive [m]
 };
 
 /// Moves the places of a path so that its curvature is within the limit, and changes slowly, and the middle of the

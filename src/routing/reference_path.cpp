@@ -7,6 +7,7 @@
 
 #include "bend_relief.h"
 #include "external_command/core/text.h"
+#include "lane_excess.h"
 #include "smoothing.h"
 #include "start_merge.h"
 
@@ -128,15 +129,14 @@ ReferencePath referencePath(const HdMap& map, const Route& route, const VehicleP
                             const ReferencePathParams& params, const ReferencePathQuery& query) {
   const CourseGeometry geometry(map, route, vehicle, params);
   query.cancel.throwIfCancelled();
-  if (geometry.length() < kPoint) return {standingPath(map, route, query.start), {}};
+  if (geometry.length() < kPoint) return {standingPath(map, route, query.start), {}, {}};
   const auto intervals =
       static_cast<std::size_t>(std::max(2.0, std::ceil(geometry.length() / params.spacing - kPoint)));
   const double step = geometry.length() / static_cast<double>(intervals);
   const auto lead_in = static_cast<std::size_t>(std::min(geometry.leadIn() / step, kMaxLead));
   const std::size_t before = query.start ? kBehindVehicle : lead_in;
   const auto after = static_cast<std::size_t>(std::min(geometry.leadOut() / step, kMaxLead));
-  const std::vector<CoursePoint> course = geometry.sample(step, before, intervals + after);
-  query.cancel.throwIfCancelled();
+  const std::vector<CoursePoint> course = geometry.sample(step, before, intervals + after, query.cancel);
 
   CourseLayout layout;
   layout.first = before;
@@ -149,13 +149,18 @@ ReferencePath referencePath(const HdMap& map, const Route& route, const VehicleP
   layout.points = wished;
   layout.places.resize(course.size());
   std::iota(layout.places.begin(), layout.places.end(), 0);
+  query.cancel.throwIfCancelled();
   smooth(kSmoothingLength / step, layout.first, layout.last, &layout.points);
-  BendRelief(map, vehicle, step, course, wished).apply(query.cancel, &layout);
+  query.cancel.throwIfCancelled();
+  const Corridor corridor(map, vehicle);
+  BendRelief(corridor, vehicle, step, course, wished).apply(query.cancel, &layout);
+  query.cancel.throwIfCancelled();
 
   ReferencePath result;
   result.path = pathThrough(layout.points, layout.first, layout.last);
   if (layout.starts_at_pose) result.path.front().heading = query.start->heading;
   capSpeeds(course, layout, vehicle, query.target_speed, &result.path);
+  result.left = leftLanes(corridor, vehicle, course, wished, layout, result.path);
   result.tight = tightLanes(course, layout, vehicle.maxKappa(), result.path);
   if (params.refuse_undrivable && !result.tight.empty()) {
     throw NoPath(describe(map, result.tight, vehicle).front() +
@@ -172,6 +177,17 @@ std::vector<std::string> describe(const HdMap& map, const std::vector<TightLane>
                          metres(vehicle.min_turning_radius), " (~vehicle/min_turning_radius)"));
   }
   if (tight.size() > kMostTexts) texts.push_back(text(tight.size() - kMostTexts, " more lanes bend too tightly"));
+  return texts;
+}
+
+std::vector<std::string> describe(const HdMap& map, const std::vector<LeftLane>& left) {
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < std::min(left.size(), kMostTexts); ++i) {
+    texts.push_back(text("a corner of the vehicle leaves lane ", map.lane(left[i].lane).id, " by ",
+                         metres(left[i].excess), " at ", at(left[i].position),
+                         ": the lane is too narrow for it there"));
+  }
+  if (left.size() > kMostTexts) texts.push_back(text(left.size() - kMostTexts, " more lanes are left by a corner"));
   return texts;
 }
 

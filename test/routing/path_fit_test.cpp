@@ -67,6 +67,12 @@ TEST(PathFit, WidensABendWhereThereIsRoom) {
   EXPECT_LT(largestOffset(places, points), 1.01);
 }
 
+TEST(PathFit, ChangesTheCurvatureNoFasterThanTheWheelsTurnWhereThereIsRoom) {
+  const auto points = fitted(bend(8.0, M_PI / 2.0, 1.0));
+  const std::vector<double> kappas = curvaturesOf(points);
+  for (std::size_t i = 1; i < kappas.size(); ++i) EXPECT_LT(std::abs(kappas[i] - kappas[i - 1]), 0.105 * kStep) << i;
+}
+
 TEST(PathFit, StaysWithinItsLimitsWhereThereIsNoRoom) {
   const auto places = bend(2.5, M_PI, 0.2);
   const auto points = fitted(places);

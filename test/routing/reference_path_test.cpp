@@ -270,6 +270,23 @@ TEST_F(CoarseJunction, IsDrivenByALongVehicleOnTheNeighbourLaneWhereItMust) {
   EXPECT_LT(left, 1.5 * kWidth - vehicle.width / 2.0) << "no farther than the neighbour lane";
 }
 
+TEST_F(CoarseJunction, SaysWhereACornerOfALongVehicleLeavesTheLanes) {
+  builder.lane("a", {{0, 0}, {60, 0}}).arc("turn", {60, 0, 0}, 9.0, -M_PI / 2).lane("b", {{69, -9}, {69, -69}});
+  builder.follow({"a", "turn", "b"});
+  EXPECT_TRUE(along({"a", 0}, {"b", 60}).left.empty()) << "a car has room";
+  vehicle.wheelbase = 6.0;
+  vehicle.front_overhang = 2.5;
+  vehicle.min_turning_radius = 8.0;
+  vehicle.width = 2.5;
+  const ReferencePath found = along({"a", 0}, {"b", 60});
+  ASSERT_FALSE(found.left.empty());
+  EXPECT_GT(found.left[0].excess, 0.2);
+  EXPECT_LT(found.left[0].excess, 3.0);
+  EXPECT_LT((found.left[0].position - Point2d(60, 0)).norm(), 15.0);
+  const std::string told = describe(map(), found.left).front();
+  EXPECT_NE(told.find("a corner of the vehicle leaves lane "), std::string::npos) << told;
+}
+
 TEST_F(CoarseJunction, IsDrivenThroughWhereLinkedLanesLieApart) {
   for (const double ahead : {-3.0, -1.0, 0.0, 1.0, 1.5}) {
     for (const double beside : {-0.9, -0.5, 0.0, 0.8}) {

@@ -33,9 +33,17 @@ struct TightLane {
   double radius = 0.0;                 ///< of the path there [m]
 };
 
+/// A stretch on which a part of the vehicle leaves the lanes, at its worst place.
+struct LeftLane {
+  LaneIndex lane = 0;
+  Point2d position = Point2d::Zero();  ///< of the vehicle [m]
+  double excess = 0.0;                 ///< of the corner that is farthest beyond the boundary [m]
+};
+
 struct ReferencePath {
   Path path;
   std::vector<TightLane> tight;  ///< in order along the path; empty: it can be driven
+  std::vector<LeftLane> left;    ///< in order along the path; by more than 0.2 m
 };
 
 /// The centre line of the route with its lane changes as smooth transitions (quintic in the lateral offset, so heading
@@ -54,5 +62,8 @@ ReferencePath referencePath(const HdMap& map, const Route& route, const VehicleP
 
 /// A text for each of the first twenty, with lane, place, radius and the vehicle's, and one that counts the others.
 std::vector<std::string> describe(const HdMap& map, const std::vector<TightLane>& tight, const VehicleParams& vehicle);
+
+/// The same with lane, place and how much.
+std::vector<std::string> describe(const HdMap& map, const std::vector<LeftLane>& left);
 
 }  // namespace external_command
