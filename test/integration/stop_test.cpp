@@ -42,18 +42,11 @@ class Inbox {
   }
   ~Inbox() { lane_.stop(); }
 
-  /// False where `count` messages have not come within 10 s.
-  bool waitFor(std::size_t count) {
-    return waitFor(count, [](const Message&) { return true; });
-  }
-
-  /// The same for messages that match.
-  template <class Predicate>
-  bool waitFor(std::size_t count, const Predicate& matches) {
+  /// False where `count` messages that match have not come within 10 s.
+  bool waitFor(std::size_t count, bool (*matches)(const Message&) = &isAny) {
+    const auto found = [&] { return std::count_if(messages_.begin(), messages_.end(), matches); };
     std::unique_lock<std::mutex> lock(mutex_);
-    return changed_.wait_for(lock, std::chrono::seconds(10), [&] {
-      return static_cast<std::size_t>(std::count_if(messages_.begin(), messages_.end(), matches)) >= count;
-    });
+    return changed_.wait_for(lock, std::chrono::seconds(10), [&] { return found() >= static_cast<long>(count); });
   }
 
   std::vector<Message> messages() {
@@ -62,6 +55,8 @@ class Inbox {
   }
 
  private:
+  static bool isAny(const Message& /*message*/) { return true; }
+
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Message> messages_;
@@ -273,8 +268,8 @@ TEST_F(Stop, KeepsWhatWaitsForAThreadFromBeingSent) {
   const auto gate = planner_->holdPlans(false);
   std::vector<std::future<CommandStatus>> plans;
   for (int i = 0; i < 8; ++i) plans.push_back(plan());
-  ASSERT_TRUE(statuses.waitFor(8, [](const CommandStatus& status) { return status.message == "being planned"; }))
-      << "all have arrived";
+  const auto isPlanned = [](const CommandStatus& status) { return status.message == "being planned"; };
+  ASSERT_TRUE(statuses.waitFor(8, isPlanned)) << "all have arrived";
   ASSERT_TRUE(gate->waitForEntered(2));
   send(ActionCommand::STOP);
   gate->open();
