@@ -73,9 +73,11 @@ class ChassisTest(unittest.TestCase):
     def test_refuses_malformed_custom_operations(self):
         invalid = CommandStatus.INVALID_REQUEST
         md5 = "0" * 32
-        for type_name in ("NoPackage", "a/b/c", "/Type", "package/", "1a/B", "a b/C", "x" * 200000):
+        for type_name in ("NoPackage", "a/b/c", "/Type", "package/", "1a/B", "a b/C", "x" * 1000):
             self.assert_refused(control(custom_operation=Any(type=type_name, md5sum=md5)), invalid,
                                 "custom_operation.type", "package/Type")
+        self.assert_refused(control(custom_operation=Any(type="x" * 200000, md5sum=md5)), invalid,
+                            "custom_operation.type has 200000 bytes", "the limit is 1000 (~requests/max_text)")
         for bad in ("", "*", "0" * 31, "g" * 32):
             self.assert_refused(control(custom_operation=Any(type="package/Type", md5sum=bad)), invalid,
                                 "custom_operation.md5sum")
