@@ -74,9 +74,8 @@ function(ec_add_rostest file)
   string(REGEX REPLACE "\\.test$" ".xml" output ${name})
   find_program(EC_ROSTEST rostest)
   ec_add_test(rostest ${name} rostest-${output} DEPENDENCIES ${ARG_DEPENDENCIES}
-    COMMAND ${PYTHON_EXECUTABLE} ${EC_ROSTEST} --pkgdir=${PROJECT_SOURCE_DIR} --package=${PROJECT_NAME}
-            --results-filename ${output} --results-base-dir ${CATKIN_TEST_RESULTS_DIR}
-            ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+    COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/scripts/lib/run_rostest.py ${EC_TEST_RESULTS_DIR} ${PROJECT_NAME}
+            ${EC_ROSTEST} --pkgdir=${PROJECT_SOURCE_DIR} --results-filename ${output} ${CMAKE_CURRENT_SOURCE_DIR}/${file})
 endfunction()
 
 # ec_add_launch_check(FILE)
