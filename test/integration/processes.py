@@ -15,6 +15,8 @@ import support
 class Process:
     """A program that ends with the `with` block, and all that it started, as far as it ends its children."""
 
+    takes_output = None  # instead of the file that is kept
+
     def __init__(self, *command, **environment):
         self._command = command
         self._environment = dict(os.environ, **environment)
@@ -22,9 +24,14 @@ class Process:
         self._process = None
 
     def __enter__(self):
-        self._process = subprocess.Popen(self._command, env=self._environment, stdin=subprocess.DEVNULL,
-                                         stdout=self._log, stderr=subprocess.STDOUT, start_new_session=True)
+        self.start()
         return self
+
+    def start(self):
+        """Once more after its end too."""
+        self._process = subprocess.Popen(self._command, env=self._environment, stdin=subprocess.DEVNULL,
+                                         stdout=self.takes_output or self._log, stderr=subprocess.STDOUT,
+                                         start_new_session=True)
 
     def __exit__(self, *_):
         try:
@@ -42,9 +49,20 @@ class Process:
             self._process.kill()
             self._process.wait()
 
+    def send_signal(self, number):
+        self._process.send_signal(number)
+
+    def wait_for_end(self):
+        """The exit code."""
+        return self._process.wait(support.DEADLINE)
+
     @property
     def pid(self):
         return self._process.pid
+
+    @property
+    def is_running(self):
+        return self._process.poll() is None
 
     @property
     def output(self):
@@ -56,8 +74,8 @@ class Process:
 class Node(Process):
     """An executable of this package; rosrun may find it in an install space too."""
 
-    def __init__(self, executable, *arguments):
-        super().__init__(roslib.packages.find_node("external_command", executable)[0], *arguments)
+    def __init__(self, executable, *arguments, **environment):
+        super().__init__(roslib.packages.find_node("external_command", executable)[0], *arguments, **environment)
 
 
 class Master(Process):
