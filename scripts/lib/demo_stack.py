@@ -27,7 +27,7 @@ class Stack:
     def launch(self, launch_file, **arguments):
         """Starts a ROS master and what a launch file of this package names."""
         self.spawn("roslaunch", ["roslaunch", "--port", self.master_uri.rpartition(":")[2], "external_command",
-                                 launch_file, "respawn:=false", *(f"{name}:={value}" for name, value in arguments.items())])
+                                 launch_file, *(f"{name}:={value}" for name, value in {"respawn": "false", **arguments}.items())])
 
     def spawn(self, name, command, pass_fds=(), **environment):
         """Starts a process that ends with the others; `environment`: additional variables."""

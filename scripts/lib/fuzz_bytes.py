@@ -136,6 +136,7 @@ def shoot_bytes(seed, end, findings, services=tuple(sorted(SERVICES))):
         except (OSError, genpy.DeserializationError, UnicodeDecodeError) as error:
             findings.add("%s gave no answer to bytes" % service, "%s to %s" % (error, data.hex()))
             callers[service].close()
+            time.sleep(0.05)
             continue
         duration = time.monotonic() - begin
         findings.note("bytes to " + service, status.error_code, duration)
