@@ -111,8 +111,9 @@ def soak(gateway, minutes, figures):
             time.sleep(QUIET)
             settled = (len(clients.durations), gateway.rss(), memory_of(gateway.pid, "RssAnon"))
     time.sleep(QUIET)
-    if settled is None:
-        raise DemoError("%g minutes are too few for %d calls" % (minutes, WARM_UP))
+    if settled is None or len(clients.durations) < 2 * WARM_UP:
+        raise DemoError("%g minutes are too few: %d calls, of which the first %d are the warm-up, say nothing" %
+                        (minutes, len(clients.durations), WARM_UP))
     figures.show("calls", len(clients.durations))
     figures.show("of them after the warm-up", len(clients.durations) - settled[0])
     figures.show("answer, median", 1e3 * statistics.median(clients.durations), "ms")
