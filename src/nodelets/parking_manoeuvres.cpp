@@ -146,7 +146,7 @@ void leaveRouteFor(const std::vector<Pose2d>& goals, const Region& region, const
 void leaveParkingPlace(const ProcessContext& context, const Pose2d& vehicle, const ManoeuvrePlanner& planner,
                        const Deadline& deadline, const CancelToken& cancel, MotionPlan* plan) {
   const HdMap& map = context.requireRouter().map();
-  if (!LaneWayTool(map, context.params().lane_way).isOffLane(vehicle)) return;
+  if (!LaneWayTool(map, context.params().lane_way).isOffLane(vehicle, context.vehiclePose().height())) return;
   const double margin = planner.params().margin;
   std::string why;
   const std::vector<Polygon> places = placesOf(map, context.params().vehicle, margin, vehicle);

@@ -7,14 +7,10 @@
 #include "external_command/core/text.h"
 #include "external_command/ros/checks.h"
 #include "external_command/ros/conversions.h"
-#include "external_command/ros/log_lane.h"
 
 namespace external_command {
 
 namespace {
-
-/// At its ends a lane lies on top of others; so far inside [m] it can be told from those that branch off.
-constexpr double kInsideLane = 0.5;
 
 bool isZero(const geometry_msgs::Point& point) { return point.x == 0.0 && point.y == 0.0; }
 
@@ -83,7 +79,8 @@ ValetParkingCommand RoutingRequestConverter::toValetParking(const RoutingRequest
 
 std::vector<Pose> RoutingRequestConverter::toPoses(const RoutingRequest& request, std::size_t begin,
                                                    std::size_t end) const {
-  const Pose2d frame = context_->vehiclePose().ofFrame(request.header.frame_id);
+  const VehiclePose& frames = context_->vehiclePose();
+  const GivenFrame frame{frames.ofFrame(request.header.frame_id), frames.heightOfFrame(request.header.frame_id)};
   std::vector<Pose> poses;
   for (std::size_t i = begin; i < end; ++i) {
     poses.push_back(toPose(request.waypoint[i], frame, text("waypoint[", i, "]")));
@@ -91,12 +88,12 @@ std::vector<Pose> RoutingRequestConverter::toPoses(const RoutingRequest& request
   return poses;
 }
 
-Pose RoutingRequestConverter::toPose(const LaneWaypoint& way_point, const Pose2d& frame,
+Pose RoutingRequestConverter::toPose(const LaneWaypoint& way_point, const GivenFrame& frame,
                                      const std::string& name) const {
   requireFinite(way_point.pose, name + ".pose");
   requireFinite(way_point.s, name + ".s");
   if (way_point.has_heading) requireFinite(way_point.heading, name + ".heading");
-  if (!way_point.id.empty()) return onLane(way_point, frame, name);
+  if (!way_point.id.empty()) return onLane(way_point, frame.pose, name);
   if (isZero(way_point.pose) && !way_point.has_heading) {
     throw InvalidRequest(name + " has neither an id of a lane nor a pose (for the pose (0, 0) give a heading too)");
   }
@@ -105,8 +102,10 @@ Pose RoutingRequestConverter::toPose(const LaneWaypoint& way_point, const Pose2d
   given.y = way_point.pose.y;
   given.heading = way_point.heading;
   given.has_heading = way_point.has_heading;
-  Pose pose = toMsg(toMapPose(given, frame));
+  Pose pose = toMsg(toMapPose(given, frame.pose));
   pose.has_heading = given.has_heading;
+  pose.has_z = way_point.pose.z != 0.0 && std::isfinite(way_point.pose.z);  // who plans in the plane says 0
+  if (pose.has_z) pose.z = way_point.pose.z + frame.z;
   return pose;
 }
 
@@ -117,25 +116,21 @@ Pose RoutingRequestConverter::onLane(const LaneWaypoint& way_point, const Pose2d
   LanePoint point = lanePoint(way_point, frame, name);
   if (way_point.has_heading) point = drivenAs(map, point, way_point.heading + frame.heading);
   const Lane& lane = map.lane(point.lane);
-  Pose2d exact = lane.center.poseAt(point.s);
-  const double turn = way_point.has_heading ? angleBetween(exact.heading, way_point.heading + frame.heading) : 0.0;
+  Pose2d pose = lane.center.poseAt(point.s);
+  const double turn = way_point.has_heading ? angleBetween(pose.heading, way_point.heading + frame.heading) : 0.0;
   if (std::abs(turn) > params.snap_heading) {
     throw InvalidRequest(text(name, ": its heading differs by ", radians(turn), " from that of its lane ", lane.id,
-                              " at s ", metres(point.s), ", ", radians(exact.heading), "; the limit is ",
+                              " at s ", metres(point.s), ", ", radians(pose.heading), "; the limit is ",
                               radians(params.snap_heading), " (~routing/snap_heading)"));
   }
-  // The command names no lanes: take a pose from which the same lane is found again.
-  const LaneWayTool tool(map, params);
-  const double margin = std::min(kInsideLane, 0.5 * lane.length());
-  for (const double s : {point.s, std::clamp(point.s, margin, lane.length() - margin)}) {
-    Pose2d pose = lane.center.poseAt(s);
-    pose.heading = normalizeAngle(pose.heading + turn);
-    if (tool.fromPose(pose.position(), pose.heading, name).front().lane == point.lane) return toMsg(pose);
-  }
-  logLater(LogLevel::kWarn, text(name, ": another lane of the map lies on top of ", lane.id, " at ", at(exact),
-                                 "; the route may take either"));
-  exact.heading = normalizeAngle(exact.heading + turn);
-  return toMsg(exact);
+  pose.heading = normalizeAngle(pose.heading + turn);
+  Pose on_lane = toMsg(pose);
+  on_lane.has_heading = way_point.has_heading;  // without one, a lane of both directions may be driven in either
+  on_lane.lane_id = lane.id;
+  const auto height = lane.heightAt(point.s);
+  on_lane.has_z = height.has_value();  // the lane may pass above itself
+  on_lane.z = height.value_or(0.0);
+  return on_lane;
 }
 
 LanePoint RoutingRequestConverter::lanePoint(const LaneWaypoint& way_point, const Pose2d& frame,

@@ -32,9 +32,15 @@ class RoutingRequestConverter {
   ValetParkingCommand toValetParking(const RoutingRequest& request) const;
 
  private:
+  /// The frame of a request, in the map frame.
+  struct GivenFrame {
+    Pose2d pose;
+    double z = 0.0;  ///< [m]
+  };
+
   /// `waypoint[i]` for the i in [begin, end).
   std::vector<Pose> toPoses(const RoutingRequest& request, std::size_t begin, std::size_t end) const;
-  Pose toPose(const LaneWaypoint& way_point, const Pose2d& frame, const std::string& name) const;
+  Pose toPose(const LaneWaypoint& way_point, const GivenFrame& frame, const std::string& name) const;
   Pose onLane(const LaneWaypoint& way_point, const Pose2d& frame, const std::string& name) const;
   LanePoint lanePoint(const LaneWaypoint& way_point, const Pose2d& frame, const std::string& name) const;
 

@@ -42,6 +42,7 @@ void requireFinite(const Pose& pose, const std::string& field) {
   requireCoordinate(pose.x, field + ".x");
   requireCoordinate(pose.y, field + ".y");
   if (pose.has_heading) requireFinite(pose.heading, field + ".heading");
+  if (pose.has_z) requireCoordinate(pose.z, field + ".z");
 }
 
 void requireFinite(const geometry_msgs::Point& point, const std::string& field) {

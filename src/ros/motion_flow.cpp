@@ -82,7 +82,7 @@ MotionFlow::MotionFlow(ProcessContext& context, const std::vector<std::string>& 
 std::optional<Pose2d> MotionFlow::startOnLane(const RoutingTask& task) const {
   if (!task.vehicle) return std::nullopt;
   const LaneWayTool tool(context_.requireRouter().map(), context_.params().lane_way);
-  return tool.isOffLane(*task.vehicle) ? std::nullopt : task.vehicle;
+  return tool.isOffLane(*task.vehicle, context_.vehiclePose().height()) ? std::nullopt : task.vehicle;
 }
 
 void MotionFlow::addRoute(const RoutingTask& task, double target_speed, const CancelToken& cancel,

@@ -23,12 +23,15 @@ LaneWaypoint toMsg(const HdMap& map, const LanePoint& point) {
   return msg;
 }
 
-std::vector<LanePoint> onLanes(const ProcessContext& context, const Pose& pose, const Pose2d& frame,
+std::vector<LanePoint> onLanes(const ProcessContext& context, const Pose& pose, const std::string& frame_id,
                                const std::string& field) {
-  const Pose2d at_map = toMapPose(pose, frame);
+  const Pose2d at_map = toMapPose(pose, context.vehiclePose().ofFrame(frame_id));
   const auto heading = pose.has_heading ? std::optional<double>(at_map.heading) : std::nullopt;
+  LaneHint hint;
+  if (pose.has_z) hint.height = pose.z + context.vehiclePose().heightOfFrame(frame_id);
+  hint.lane_id = pose.lane_id;
   return LaneWayTool(context.requireRouter().map(), context.params().lane_way)
-      .fromPose(at_map.position(), heading, field);
+      .fromPose(at_map.position(), heading, field, hint);
 }
 
 }  // namespace
@@ -48,7 +51,7 @@ RoutingTask beginRoutingTask(const ProcessContext& context, const PlanStart& veh
     task.request.waypoint.push_back(toMsg(map, task.query.starts.front()));
   }
   for (std::size_t i = 0; i < way_points.size(); ++i) {
-    std::vector<LanePoint> points = onLanes(context, way_points[i], frame, text("way_point[", i, "]"));
+    std::vector<LanePoint> points = onLanes(context, way_points[i], frame_id, text("way_point[", i, "]"));
     task.request.waypoint.push_back(toMsg(map, points.front()));
     if (i == 0 && is_start_pose_set) {
       task.query.starts = std::move(points);
@@ -71,7 +74,7 @@ void addBlackList(const HdMap& map, const std::vector<LaneSegment>& lanes, const
 
 void setGoal(const ProcessContext& context, const std::string& frame_id, const Pose& pose, const std::string& field,
              RoutingTask* task) {
-  setGoals(context.requireRouter().map(), onLanes(context, pose, context.vehiclePose().ofFrame(frame_id), field), task);
+  setGoals(context.requireRouter().map(), onLanes(context, pose, frame_id, field), task);
 }
 
 void setGoals(const HdMap& map, const std::vector<LanePoint>& candidates, RoutingTask* task) {

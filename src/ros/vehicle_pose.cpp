@@ -71,10 +71,20 @@ std::string VehiclePose::refusal() const {
 }
 
 Pose2d VehiclePose::ofFrame(const std::string& given) const {
+  const auto transform = transformOf(given);
+  return transform ? toPose(*transform) : Pose2d();
+}
+
+double VehiclePose::heightOfFrame(const std::string& given) const {
+  const auto transform = transformOf(given);
+  return transform ? transform->translation.z : 0.0;
+}
+
+std::optional<geometry_msgs::Transform> VehiclePose::transformOf(const std::string& given) const {
   const std::string frame = frameId(given);
-  if (frame.empty() || frame == map_frame_) return {};
+  if (frame.empty() || frame == map_frame_) return std::nullopt;
   try {
-    return toPose(feed_.store().lookup(map_frame_, frame).transform);
+    return feed_.store().lookup(map_frame_, frame).transform;
   } catch (const tf2::TransformException& error) {
     throw InvalidRequest(text("header.frame_id ", quoted(frame), " cannot be transformed to '", map_frame_,
                               "': ", printable(error.what(), 300), "; leave it empty for '", map_frame_, "'"));

@@ -39,17 +39,22 @@ void dropEnds(const HdMap& map, std::vector<LaneMatch>* matches) {
   if (!kept.empty()) *matches = std::move(kept);  // a ring of lanes may be all ends
 }
 
-/// Leaves the lanes of the deck that is nearest by height; what the map says no height of stays.
-void keepDeck(const HdMap& map, double height, double error, std::vector<LaneMatch>* matches) {
-  const auto difference = [&](const LaneMatch& match) {
-    const auto lane_height = map.lane(match.lane).heightAt(match.frenet.s);
-    return lane_height ? std::abs(*lane_height - height) : 0.0;
-  };
-  double least = std::numeric_limits<double>::infinity();
-  for (const LaneMatch& match : *matches) least = std::min(least, difference(match));
-  matches->erase(std::remove_if(matches->begin(), matches->end(),
-                                [&](const LaneMatch& match) { return difference(match) > least + error; }),
-                 matches->end());
+/// By how much the lane's height there differs; 0 where the map gives none [m].
+double heightDifference(const HdMap& map, const LaneMatch& match, double height) {
+  const auto lane_height = map.lane(match.lane).heightAt(match.frenet.s);
+  return lane_height ? std::abs(*lane_height - height) : 0.0;
+}
+
+/// Leaves those whose height differs by at most `most` [m].
+void keepDeck(const HdMap& map, double height, double most, std::vector<LaneMatch>* matches) {
+  const auto is_other = [&](const LaneMatch& match) { return heightDifference(map, match, height) > most; };
+  matches->erase(std::remove_if(matches->begin(), matches->end(), is_other), matches->end());
+}
+
+/// Leaves those of the lane, in whichever direction.
+void keepLane(const HdMap& map, const std::string& id, std::vector<LaneMatch>* matches) {
+  const auto is_other = [&](const LaneMatch& match) { return map.lane(match.lane).id != id; };
+  matches->erase(std::remove_if(matches->begin(), matches->end(), is_other), matches->end());
 }
 
 }  // namespace
@@ -72,16 +77,31 @@ void LaneWayParams::validate() const {
 
 LaneWayTool::LaneWayTool(const HdMap& map, const LaneWayParams& params) : map_(map), params_(params) {}
 
-/// With a height, only lanes of that deck: those of another that are nearer in the plane do not count.
-std::vector<LanePoint> LaneWayTool::candidates(const Point2d& point, LaneQuery query,
-                                               const std::optional<double>& height) const {
-  if (!height) {
+std::vector<LaneMatch> LaneWayTool::onDeck(const Point2d& point, const LaneQuery& query, double height) const {
+  LaneQuery wide;
+  wide.max_distance = std::max(query.max_distance, params_.park_and_go_radius);
+  const std::vector<LaneMatch> around = map_.lanesWithin(point, wide);
+  double most = params_.height_error;
+  const auto fits = [&](const LaneMatch& match) { return heightDifference(map_, match, height) <= most; };
+  std::vector<LaneMatch> matches = map_.lanesWithin(point, query);
+  if (std::none_of(around.begin(), around.end(), fits)) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const LaneMatch& match : matches) least = std::min(least, heightDifference(map_, match, height));
+    most += least;
+  }
+  keepDeck(map_, height, most, &matches);
+  return matches;
+}
+
+/// What the hint rules out does not count, however near it is in the plane.
+std::vector<LanePoint> LaneWayTool::candidates(const Point2d& point, LaneQuery query, const LaneHint& hint) const {
+  if (!hint.height && hint.lane_id.empty()) {
     const auto nearest = map_.nearestLane(point, query);
     if (!nearest) return {};
     query.max_distance = std::min(query.max_distance, nearest->frenet.distance + params_.lane_keeping_error);
   }
-  std::vector<LaneMatch> matches = map_.lanesWithin(point, query);
-  if (height) keepDeck(map_, *height, params_.height_error, &matches);
+  std::vector<LaneMatch> matches = hint.height ? onDeck(point, query, *hint.height) : map_.lanesWithin(point, query);
+  if (!hint.lane_id.empty()) keepLane(map_, hint.lane_id, &matches);
   dropEnds(map_, &matches);
   const auto turn = [&](const LaneMatch& match) {
     return query.heading ? std::abs(angleBetween(*query.heading, match.heading)) : 0.0;
@@ -102,40 +122,64 @@ std::vector<LanePoint> LaneWayTool::candidates(const Point2d& point, LaneQuery q
 }
 
 std::vector<LanePoint> LaneWayTool::fromPose(const Point2d& point, const std::optional<double>& heading,
-                                             const std::string& name) const {
+                                             const std::string& name, const LaneHint& hint) const {
   if (!point.allFinite() || (heading && !std::isfinite(*heading))) throw InvalidRequest(text(name, " is not finite"));
+  if (!hint.lane_id.empty()) requireLane(hint.lane_id, name);
   LaneQuery query;
   query.max_distance = heading ? params_.snap_distance : params_.max_goal_distance;
   query.heading = heading;
   query.max_heading_difference = params_.snap_heading;
-  std::vector<LanePoint> points = candidates(point, query, std::nullopt);
-  if (!points.empty()) return points;
-
-  const std::string place = heading ? at(Pose2d{point.x(), point.y(), *heading}) : at(point);
-  const auto nearest = map_.nearestLane(point, {});
-  if (!nearest) throw OffMap(text(name, " ", place, ": the map has no lane to drive on"));
-  std::string difference;
-  std::string limit = text("limit is ", metres(params_.max_goal_distance), " (~max_goal_distance)");
-  if (heading) {
-    difference = text(", whose heading differs by ", radians(std::abs(angleBetween(*heading, nearest->heading))));
-    limit = text("limits are ", metres(params_.snap_distance), " (~snap_distance) and ", radians(params_.snap_heading),
-                 " (~snap_heading)");
-  }
-  throw OffMap(text(name, " ", place, " is ", metres(nearest->frenet.distance), " from the nearest lane ",
-                    map_.lane(nearest->lane).id, difference, "; the ", limit));
+  std::vector<LanePoint> points = candidates(point, query, hint);
+  if (points.empty()) throw offMap(point, heading, name, hint);
+  return points;
 }
 
-LanePoint LaneWayTool::fromLane(const std::string& id, double s, const std::string& name) const {
+/// Why no lane was found.
+OffMap LaneWayTool::offMap(const Point2d& point, const std::optional<double>& heading, const std::string& name,
+                           const LaneHint& hint) const {
+  const std::string place = heading ? at(Pose2d{point.x(), point.y(), *heading}) : at(point);
+  std::optional<LaneMatch> nearest = map_.nearestLane(point, {});
+  if (!nearest) return OffMap(text(name, " ", place, ": the map has no lane to drive on"));
+  if (!hint.lane_id.empty()) {
+    const LaneIndex lane = requireLane(hint.lane_id, name);
+    const FrenetPoint frenet = map_.lane(lane).center.project(point);
+    nearest = LaneMatch{lane, frenet, map_.lane(lane).center.headingAt(frenet.s)};
+  }
+  std::string difference;
+  std::string limit = heading ? text(metres(params_.snap_distance), " (~snap_distance) and ",
+                                     radians(params_.snap_heading), " (~snap_heading)")
+                              : text(metres(params_.max_goal_distance), " (~max_goal_distance)");
+  if (heading) {
+    difference = text(", whose heading differs by ", radians(std::abs(angleBetween(*heading, nearest->heading))));
+  }
+  const double higher = hint.height ? heightDifference(map_, *nearest, *hint.height) : 0.0;
+  if (higher > params_.height_error) {
+    difference += text(difference.empty() ? ", whose" : " and", " height differs by ", metres(higher));
+    limit += text(" and ", metres(params_.height_error), " (~height_error)");
+  }
+  const bool is_one = !heading && higher <= params_.height_error;
+  return OffMap(text(name, " ", place, " is ", metres(nearest->frenet.distance), " from ",
+                     hint.lane_id.empty() ? "the nearest lane " : "its lane ", map_.lane(nearest->lane).id, difference,
+                     is_one ? "; the limit is " : "; the limits are ", limit));
+}
+
+LaneIndex LaneWayTool::requireLane(const std::string& id, const std::string& name) const {
   const auto index = map_.findLane(id);
   if (!index)
     throw InvalidRequest(
         text(name, " names lane ", quoted(id), ", which the map does not have", nearLaneIds(map_, id)));
-  const Lane& lane = map_.lane(*index);
-  if (!lane.isDrivable()) throw InvalidRequest(text(name, " names lane ", id, ", which is not for driving"));
+  if (!map_.lane(*index).isDrivable())
+    throw InvalidRequest(text(name, " names lane ", id, ", which is not for driving"));
+  return *index;
+}
+
+LanePoint LaneWayTool::fromLane(const std::string& id, double s, const std::string& name) const {
+  const LaneIndex index = requireLane(id, name);
+  const Lane& lane = map_.lane(index);
   if (!(s >= -kBesideLane && s <= lane.length() + kBesideLane)) {  // catches NaN
     throw InvalidRequest(text(name, " has s ", s, " m; lane ", id, " goes from 0 to ", metres(lane.length())));
   }
-  return {*index, std::clamp(s, 0.0, lane.length())};
+  return {index, std::clamp(s, 0.0, lane.length())};
 }
 
 LaneQuery LaneWayTool::ownLanes(const Pose2d& vehicle) const {
@@ -146,8 +190,8 @@ LaneQuery LaneWayTool::ownLanes(const Pose2d& vehicle) const {
   return query;
 }
 
-bool LaneWayTool::isOffLane(const Pose2d& vehicle) const {
-  return !map_.nearestLane(vehicle.position(), ownLanes(vehicle));
+bool LaneWayTool::isOffLane(const Pose2d& vehicle, const std::optional<double>& height) const {
+  return candidates(vehicle.position(), ownLanes(vehicle), {height, {}}).empty();
 }
 
 /// Where lanes give access to the area around `point`; none where it lies in none, or no lane does.
@@ -165,9 +209,14 @@ std::vector<LanePoint> LaneWayTool::fromArea(const Point2d& point) const {
 
 std::vector<LanePoint> LaneWayTool::fromVehicle(const Pose2d& vehicle, const std::optional<double>& height) const {
   if (!vehicle.isFinite()) throw InvalidRequest("the vehicle's pose is not finite");
-  std::vector<LanePoint> points = candidates(vehicle.position(), ownLanes(vehicle), height);
+  std::vector<LanePoint> points = candidates(vehicle.position(), ownLanes(vehicle), {height, {}});
   if (points.empty()) points = fromArea(vehicle.position());
-  if (points.empty()) points = within(vehicle.position(), params_.park_and_go_radius);
+  if (!points.empty()) return points;
+  LaneQuery around;
+  around.max_distance = params_.park_and_go_radius;
+  const std::vector<LaneMatch> matches =
+      height ? onDeck(vehicle.position(), around, *height) : map_.lanesWithin(vehicle.position(), around);
+  for (const LaneMatch& match : matches) points.push_back({match.lane, match.frenet.s});
   if (!points.empty()) return points;
   const auto nearest = map_.nearestLane(vehicle.position(), {});
   throw OffMap(text("the vehicle at ", at(vehicle), " is off the lanes and ",

@@ -52,7 +52,8 @@ class MovingVehicleTest(unittest.TestCase):
 
     def test_to_a_free_space_command(self):
         goal = self.vehicle.ahead((150.0, 20.0))[0]
-        command = FreeSpaceCommand(parking_spot_pose=Pose(goal.x, goal.y, self.vehicle.pose[2], True))
+        spot = Pose(x=goal.x, y=goal.y, heading=self.vehicle.pose[2], has_heading=True)
+        command = FreeSpaceCommand(parking_spot_pose=spot)
         self.assert_taken_over(support.service("external_command/free_space", FreeSpace)(command).status)
 
     def test_to_a_zone(self):

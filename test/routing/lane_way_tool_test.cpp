@@ -71,9 +71,10 @@ TEST_F(TwoWayRoad, TakesEveryLaneThatIsHardlyFurtherOffAtThePriceOfBeingOff) {
 
 TEST_F(TwoWayRoad, RefusesAPoseTooFarFromEveryLane) {
   EXPECT_NO_THROW(tool().fromPose({30, kWidth + 2.9}, 0.0, "end_pose"));
-  EXPECT_THAT_REFUSED(tool().fromPose({30, kWidth + 3.1}, 0.0, "end_pose"), OffMap,
-                      "end_pose (30.00, 6.60, 0.000) is 3.10 m from the nearest lane north, whose heading differs by 0.00 "
-                      "rad; the limits are 3.00 m (~snap_distance) and 1.00 rad (~snap_heading)");
+  EXPECT_THAT_REFUSED(
+      tool().fromPose({30, kWidth + 3.1}, 0.0, "end_pose"), OffMap,
+      "end_pose (30.00, 6.60, 0.000) is 3.10 m from the nearest lane north, whose heading differs by 0.00 "
+      "rad; the limits are 3.00 m (~snap_distance) and 1.00 rad (~snap_heading)");
 }
 
 TEST_F(TwoWayRoad, RefusesAPoseAcrossEveryLane) {
@@ -167,6 +168,50 @@ TEST_F(TwoWayRoad, StartsAVehicleOnTheDeckOfItsHeight) {
   EXPECT_EQ(ids(tool().fromVehicle(vehicle, 6.0)), "north") << "the localization counts from elsewhere";
   for (const char* lane : {"north", "south", "path", "upper"}) setHeight(lane, 0.0F);
   EXPECT_EQ(tool().fromVehicle(vehicle, 6.4).size(), 2u) << "the map has no heights";
+}
+
+///   a second deck 6 m above, 5 m to the left of the lanes below
+class TwoDecks : public TwoWayRoad {
+ protected:
+  TwoDecks() {
+    builder.lane("upper", {0, kWidth + 5.0}, {100, kWidth + 5.0});
+    for (const char* lane : {"north", "south", "path"}) setHeight(lane, 1.0F);
+    setHeight("upper", 7.0F);
+  }
+
+  void setHeight(const char* lane, float z) { builder[lane].heights.assign(builder[lane].center.size(), z); }
+};
+
+TEST_F(TwoDecks, PutAPoseOnTheDeckOfItsHeight) {
+  const Point2d between{30, kWidth + 1.5};
+  EXPECT_EQ(ids(tool().fromPose(between, {}, "end_pose")), "north");
+  EXPECT_EQ(ids(tool().fromPose(between, {}, "end_pose", {1.5, ""})), "north");
+  EXPECT_EQ(ids(tool().fromPose(between, {}, "end_pose", {6.5, ""})), "upper");
+  EXPECT_EQ(ids(tool().fromPose({30, kWidth + 2.5}, 0.0, "end_pose", {6.5, ""})), "upper");
+  EXPECT_THAT_REFUSED(tool().fromPose(between, 0.0, "end_pose", {6.5, ""}), OffMap,
+                      "from the nearest lane north, whose heading differs by 0.00 rad and height differs by 5.50 m");
+  EXPECT_EQ(ids(tool().fromPose(between, 0.0, "end_pose", {60.0, ""})), "north") << "counted from elsewhere";
+}
+
+TEST_F(TwoDecks, HaveAVehicleOffTheLanesOfItsDeckStartOnThatDeck) {
+  const Pose2d vehicle{30, kWidth + 0.5, 0.0};
+  EXPECT_FALSE(tool().isOffLane(vehicle, 1.2));
+  EXPECT_TRUE(tool().isOffLane(vehicle, 7.2));
+  EXPECT_EQ(ids(tool().fromVehicle(vehicle, 1.2)), "north");
+  EXPECT_EQ(ids(tool().fromVehicle(vehicle, 7.2)), "upper") << "within the radius of park-and-go";
+}
+
+TEST_F(TwoWayRoad, PutsAPoseOnTheLaneThatItNames) {
+  builder.lane("other", {0, 0.1}, {100, 0.1});
+  const auto on = [this](const char* lane) { return ids(tool().fromPose({30, 0.05}, {}, "end_pose", {{}, lane})); };
+  EXPECT_EQ(on("other"), "other");
+  EXPECT_EQ(on("south"), "south");
+  EXPECT_EQ(on("north"), "north") << "it lies near enough";
+  EXPECT_THAT_REFUSED(tool().fromPose({30, 20.0}, {}, "end_pose", {{}, "south"}), OffMap,
+                      "is 20.00 m from its lane south; the limit is 10.00 m (~max_goal_distance)");
+  EXPECT_THAT_REFUSED(tool().fromPose({30, 0}, {}, "end_pose", {{}, "sooth"}), InvalidRequest,
+                      "names lane 'sooth', which the map does not have; did you mean");
+  EXPECT_THAT_REFUSED(tool().fromPose({30, 0}, {}, "end_pose", {{}, "path"}), InvalidRequest, "not for driving");
 }
 
 TEST_F(TwoWayRoad, ParksFromTheLanesThatOverlapTheSpace) {

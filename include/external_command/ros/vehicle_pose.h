@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <geometry_msgs/Transform.h>
+
 #include <optional>
 #include <string>
 
@@ -28,7 +30,14 @@ class VehiclePose {
   /// @throws InvalidRequest  tf does not know how to get from one to the other.
   Pose2d ofFrame(const std::string& given) const;
 
+  /// Height of the origin of that frame [m].
+  /// @throws  as ofFrame()
+  double heightOfFrame(const std::string& given) const;
+
  private:
+  /// nullopt for `map_frame_` itself. @throws InvalidRequest
+  std::optional<geometry_msgs::Transform> transformOf(const std::string& given) const;
+
   /// What tells of transforms that were refused, to be added to an error's text.
   std::string refusal() const;
 

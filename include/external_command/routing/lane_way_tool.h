@@ -28,6 +28,12 @@ struct LaneWayParams {
   void validate() const;
 };
 
+/// What else is known of a pose that lies on a lane.
+struct LaneHint {
+  std::optional<double> height = {};  ///< [m]
+  std::string lane_id = {};           ///< the lane itself; empty: not known
+};
+
 /// From poses to points on lanes. Only drivable lanes count. Const and thread-safe; refers to `map`, which must outlive
 /// it.
 class LaneWayTool {
@@ -37,11 +43,13 @@ class LaneWayTool {
   /// Candidates for a way point or goal: the nearest lane, within `snap_distance` and `snap_heading` where a heading is
   /// given, within `max_goal_distance` where not, and those that are off by at most `lane_keeping_error` more; of these
   /// the ones whose heading fits best, to `heading_error`. Each has the price of being off; the nearest comes first.
+  /// Lanes of another height than the hint's do not count, see onDeck(), nor do others than its lane.
   /// @param name  of the field, "end_pose": error texts begin with it.
-  /// @throws OffMap  there is none; the text names the nearest lane, its distance and heading difference, and the
-  /// limit.
-  std::vector<LanePoint> fromPose(const Point2d& point, const std::optional<double>& heading,
-                                  const std::string& name) const;
+  /// @throws OffMap  there is none; the text names the nearest lane, its distance and what else does not fit, and the
+  /// limits.
+  /// @throws InvalidRequest  the pose is not finite, or the hint's lane is unknown or not to be driven on.
+  std::vector<LanePoint> fromPose(const Point2d& point, const std::optional<double>& heading, const std::string& name,
+                                  const LaneHint& hint = {}) const;
 
   /// A point that is given by its lane.
   /// @param name  of the field, "waypoint[1]": error texts begin with it.
@@ -57,8 +65,8 @@ class LaneWayTool {
   /// @throws InvalidRequest  the pose is not finite.
   std::vector<LanePoint> fromVehicle(const Pose2d& vehicle, const std::optional<double>& height = {}) const;
 
-  /// True where `vehicle` is away from any lane.
-  bool isOffLane(const Pose2d& vehicle) const;
+  /// True where `vehicle` is away from any lane, of its deck where the height is known [m].
+  bool isOffLane(const Pose2d& vehicle, const std::optional<double>& height = {}) const;
 
   /// Candidates to park from: on each lane that overlaps the space, the point abreast of it; where the map has no
   /// overlaps the drivable lanes within `parking_lane_radius` (`used_geometry` is then set).
@@ -74,7 +82,17 @@ class LaneWayTool {
   std::vector<LanePoint> within(const Point2d& point, double radius) const;
 
  private:
-  std::vector<LanePoint> candidates(const Point2d& point, LaneQuery query, const std::optional<double>& height) const;
+  std::vector<LanePoint> candidates(const Point2d& point, LaneQuery query, const LaneHint& hint) const;
+
+  /// The lanes that `query` finds and that lie at `height`. Where none does within `park_and_go_radius`, map and
+  /// localization count heights from different places: then those of the deck that is nearest by height.
+  std::vector<LaneMatch> onDeck(const Point2d& point, const LaneQuery& query, double height) const;
+
+  /// @throws InvalidRequest  no such lane, or none to drive on.
+  LaneIndex requireLane(const std::string& id, const std::string& name) const;
+
+  OffMap offMap(const Point2d& point, const std::optional<double>& heading, const std::string& name,
+                const LaneHint& hint) const;
 
   std::vector<LanePoint> fromArea(const Point2d& point) const;
 
