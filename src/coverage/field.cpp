@@ -72,7 +72,7 @@ Field::Field(const VehicleParams& vehicle, const CoverageParams& params, const C
   if (start) start_ = Pose2d{start->x - origin_.x(), start->y - origin_.y(), start->heading};
   setShapes(area);
   setGoal();
-  requireFreeStart();
+  requireFreeStart(area);
 }
 
 void Field::poll() const {
@@ -96,22 +96,28 @@ void Field::setShapes(const CoverageArea& area) {
   for (std::size_t i = 0; i < area.holes.size(); ++i) {
     if (!difference(whole, holes[i]).empty()) continue;
     throw InvalidRequest(
-        text("hole ", i, " (", area.holes[i].area(), " m^2) leaves nothing of the area (", area.outer.area(), " m^2)"));
+        text("non_drivable_roi[", i, "] leaves nothing of the area of ", std::round(area.outer.area()), " m^2"));
   }
-  throw InvalidRequest(text("the ", holes.size(), " holes and obstacles together leave nothing of the area (",
-                            area.outer.area(), " m^2)"));
+  throw InvalidRequest(text("the ", area.holes.size(), " polygons non_drivable_roi",
+                            area.grid ? " and the obstacle grid" : "", " together leave nothing of the area of ",
+                            std::round(area.outer.area()), " m^2"));
 }
 
-void Field::requireFreeStart() const {
+void Field::requireFreeStart(const CoverageArea& area) const {
   if (!start_) return;
   if (!start_->isFinite()) throw InvalidRequest("the start pose is not finite");
   const auto collision = bare_checker_.collisionAt(*start_);
   if (!collision) return;
-  const bool hole = collision->kind == Collision::Kind::kNonDrivable;
   const Pose2d given{start_->x + origin_.x(), start_->y + origin_.y(), start_->heading};
-  throw StartBlocked(text("at the start ", at(given), " the footprint ",
-                          hole ? text("is in hole ", collision->index) : text("is outside the area"), " ",
-                          collision->extent(), "; move the vehicle into the area"));
+  std::string obstacle = "sticks out of the area";
+  if (collision->kind == Collision::Kind::kNonDrivable) {
+    // The obstacles of the grid come after the holes.
+    const bool is_hole = collision->index < area.holes.size();
+    obstacle = "overlaps " + (is_hole ? collision->obstacle() : "an obstacle of the grid");
+  }
+  const Region region({area.outer, area.holes, area.grid, std::nullopt});
+  throw StartBlocked(text("at the start ", at(given), " the footprint ", obstacle, " ", collision->extent(),
+                          unknownCellsHint(vehicle_, 0.0, region, given), "; move the vehicle into the free area"));
 }
 
 void Field::setGoal() {

@@ -59,7 +59,7 @@ class Field {
  private:
   void setShapes(const CoverageArea& area);
   void setGoal();
-  void requireFreeStart() const;
+  void requireFreeStart(const CoverageArea& area) const;
 
   VehicleParams vehicle_;
   CoverageParams params_;

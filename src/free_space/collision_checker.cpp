@@ -2,6 +2,7 @@
 #include "external_command/free_space/collision_checker.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "collision_probe.h"
 #include "external_command/core/error.h"
@@ -60,6 +61,15 @@ double CollisionChecker::minClearance(const Path& path, double limit) const {
   double smallest = limit;
   for (const ReferencePoint& point : path) smallest = std::min(smallest, clearance(point.pose(), smallest));
   return smallest;
+}
+
+std::string unknownCellsHint(const VehicleParams& vehicle, double margin, const Region& region, const Pose2d& pose) {
+  if (!region.grid() || !region.grid()->unknown_is_blocked) return "";
+  OccupancyGrid grid = *region.grid();
+  grid.unknown_is_blocked = false;
+  const Region known({region.drivable(), region.nonDrivable(), std::move(grid), region.axleBounds()});
+  if (!CollisionChecker(vehicle, margin, known).isFree(pose)) return "";
+  return ", where cells of the obstacle grid are unknown, which counts as blocked (~grid_unknown_is_blocked)";
 }
 
 }  // namespace external_command

@@ -37,13 +37,6 @@ struct Solution {
   double cost = std::numeric_limits<double>::infinity();
 };
 
-std::string describe(const std::string& what, const Pose2d& pose, const Collision& collision, double margin) {
-  const bool is_border =
-      collision.kind == Collision::Kind::kDrivableBorder || collision.kind == Collision::Kind::kAxleBounds;
-  return text(what, " ", at(pose), is_border ? " sticks out of " : " overlaps ", collision.obstacle(), " ",
-              collision.extent(), " near ", at(collision.at), ", the margin of ", metres(margin), " included");
-}
-
 /// The goals are numbered only where there are several.
 std::string nameOf(std::size_t goal, const std::vector<Pose2d>& goals) {
   return goals.size() > 1 ? text("goal ", goal) : "the goal";
@@ -63,7 +56,7 @@ class Planning {
         index_(vehicle, params.margin, region, origin_, [this] { throwIfStopped(); }),
         scene_{index_, vehicle.min_turning_radius, {params.gear_change_cost, 1.0, params.reverse_factor}} {
     if (const auto collision = probeCollision(index_, start_)) {
-      throw StartBlocked(describe("the start", start, *collision, params.margin));
+      throw StartBlocked(described("the start", start, *collision));
     }
     addApproaches(goals);
   }
@@ -92,6 +85,15 @@ class Planning {
                                " (time_budget) did not suffice to take them in; give a smaller region, or more time"));
   }
 
+  std::string described(const std::string& what, const Pose2d& pose, const Collision& collision) const {
+    const bool is_border =
+        collision.kind == Collision::Kind::kDrivableBorder || collision.kind == Collision::Kind::kAxleBounds;
+    const bool is_grid = collision.kind == Collision::Kind::kGrid;
+    return text(what, " ", at(pose), is_border ? " sticks out of " : " overlaps ", collision.obstacle(), " ",
+                collision.extent(), " near ", at(collision.at), ", the margin of ", metres(params_.margin), " included",
+                is_grid ? unknownCellsHint(vehicle_, params_.margin, index_.obstacles().region(), pose) : "");
+  }
+
   Pose2d local(const Pose2d& pose) const { return {pose.x - origin_.x(), pose.y - origin_.y(), pose.heading}; }
 
   void addApproaches(const std::vector<Pose2d>& goals) {
@@ -99,7 +101,7 @@ class Planning {
     for (std::size_t i = 0; i < goals.size(); ++i) {
       const Pose2d goal = local(goals[i]);
       if (const auto collision = probeCollision(index_, goal)) {
-        blocked += (blocked.empty() ? "" : "; ") + describe(nameOf(i, goals), goals[i], *collision, params_.margin);
+        blocked += (blocked.empty() ? "" : "; ") + described(nameOf(i, goals), goals[i], *collision);
         continue;
       }
       if (params_.straight_last <= 0.0) {

@@ -15,6 +15,10 @@ void stretchPointLanes(MapData* data, std::vector<MapWarning>* warnings);
 /// or lie too far off for a lane change, are dropped.
 void mendNeighbours(MapContent* map);
 
+/// Counts driving lanes that run beside another one in the same direction, where no lane of the map has a neighbour.
+/// @pre  the tree of `map` is built.
+void countMissingNeighbours(MapContent* map);
+
 /// Drops links whose ends lie more than `max_gap` [m] apart, fills in where overlapping lanes are entered, and counts
 /// what else is odd about links and centre lines.
 void checkLinks(double max_gap, MapContent* map);

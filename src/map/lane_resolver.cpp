@@ -54,9 +54,8 @@ class LaneResolver {
     for (std::size_t i = 0; i < map_.lanes.size(); ++i) resolveReferences(i);
     deriveLinks();
     for (const RoadData& road : data_.roads) addRoad(road);
-    countMissingNeighbours();
-    for (const WarningCounter* counter : {&repeated_, &dangling_, &lengths_, &boundaries_, &samples_, &speeds_,
-                                          &unlinked_, &neighbours_, &roads_, &unusable_}) {
+    for (const WarningCounter* counter :
+         {&repeated_, &dangling_, &lengths_, &boundaries_, &samples_, &speeds_, &unlinked_, &roads_, &unusable_}) {
       counter->report(&map_.warnings);
     }
   }
@@ -71,7 +70,6 @@ class LaneResolver {
   std::vector<LaneIndex> neighbours(const std::vector<std::string>& ids, const char* kind, LaneIndex self);
   void deriveLinks();
   void addRoad(const RoadData& road);
-  void countMissingNeighbours();
 
   MapData& data_;
   MapContent& map_;
@@ -85,7 +83,6 @@ class LaneResolver {
   WarningCounter samples_{"width samples dropped that are negative or not finite"};
   WarningCounter speeds_{"speed limits dropped that are negative or not finite"};
   WarningCounter unlinked_{"lanes linked backwards only; what leads on was taken from the predecessors"};
-  WarningCounter neighbours_{"driving lanes, that is all of them, without a forward neighbour: no lane changes"};
   WarningCounter roads_{"lanes named by more than one road, of which the first counts"};
 };
 
@@ -249,17 +246,6 @@ void LaneResolver::addRoad(const RoadData& road) {
       lane.road_id = road.id;
       if (lane.junction_id.empty()) lane.junction_id = road.junction;
     }
-  }
-}
-
-/// Neighbours are not derived: where a file names none for any lane, nothing says which lines may be crossed.
-void LaneResolver::countMissingNeighbours() {
-  const auto lacks_neighbours = [](const Lane& lane) {
-    return !lane.isDrivable() || (lane.left_forward.empty() && lane.right_forward.empty());
-  };
-  if (!std::all_of(map_.lanes.begin(), map_.lanes.end(), lacks_neighbours)) return;
-  for (const Lane& lane : map_.lanes) {
-    if (lane.isDrivable()) neighbours_.add(lane.id);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include "external_command/core/error.h"
 #include "external_command/core/text.h"
+#include "lane_checks.h"
 
 namespace external_command {
 
@@ -61,6 +62,7 @@ MapContent resolve(MapData data, const Point2d& origin, const MapParams& params)
                                : text("none of the map's ", stated, " lanes can be used: ", map.warnings.back().what));
   }
   map.tree = LaneTree(map.lanes);
+  countMissingNeighbours(&map);
   resolveObjects(&data, &map);
   map.box = boxOf(map);
   return map;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "lane_checks.h"
+#include "lane_search.h"
 #include "warning_counter.h"
 #include "worst_counter.h"
 
@@ -15,6 +16,9 @@ namespace {
 constexpr double kClearlyBeside = 0.5;  // [m]; what lies nearer to the centre line lies on neither side
 constexpr double kMaxDistance = 10.0;   // [m] between the centre lines, where they are nearest
 constexpr double kAtEnd = 0.001;        // [m]
+constexpr double kNearBeside = 2.0;     // [m] between the centre lines of two lanes
+constexpr double kFarBeside = 5.0;      // [m]
+constexpr double kSameWay = 0.2;        // [rad]
 
 /// Where a neighbour lies, seen from a lane.
 struct Beside {
@@ -95,8 +99,37 @@ class NeighbourCheck {
   WorstCounter far_{"forward neighbours too far off for a lane change"};
 };
 
+bool hasForwardNeighbour(const Lane& lane) {
+  return lane.isDrivable() && !(lane.left_forward.empty() && lane.right_forward.empty());
+}
+
+/// True where another driving lane lies beside the place, as wide apart as two lanes are, and runs the same way.
+bool hasLaneBeside(const MapContent& map, LaneIndex index, double s) {
+  LaneQuery query;
+  query.max_distance = kFarBeside;
+  query.heading = map.lanes[index].center.headingAt(s);
+  query.max_heading_difference = kSameWay;
+  const std::vector<LaneMatch> matches = lanesWithin(map, map.lanes[index].center.pointAt(s), query);
+  return std::any_of(matches.begin(), matches.end(), [index](const LaneMatch& match) {
+    return match.lane != index && match.frenet.distance > kNearBeside;
+  });
+}
+
 }  // namespace
 
 void mendNeighbours(MapContent* map) { NeighbourCheck(map).run(); }
+
+/// They are not derived: where a file names none for any lane, nothing says which lines may be crossed.
+void countMissingNeighbours(MapContent* map) {
+  if (std::any_of(map->lanes.begin(), map->lanes.end(), hasForwardNeighbour)) return;
+  WarningCounter missing(
+      "driving lanes with another beside them, but no lane of the map has a neighbour: no lane changes");
+  for (LaneIndex index = 0; index < map->lanes.size(); ++index) {
+    const Lane& lane = map->lanes[index];
+    const auto is_beside = [&](double share) { return hasLaneBeside(*map, index, share * lane.length()); };
+    if (lane.isDrivable() && is_beside(0.25) && is_beside(0.5) && is_beside(0.75)) missing.add(lane.id);
+  }
+  missing.report(&map->warnings);
+}
 
 }  // namespace external_command

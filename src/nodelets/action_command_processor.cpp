@@ -211,8 +211,9 @@ void ActionCommandProcessor::requireChassis() const {
     throw NotReady(text("the chassis is not heard of: no message came on ", subscribers_.front().getTopic(),
                         " (~chassis_name); is it running?"));
   }
-  throw NotReady(text("the chassis is not heard of any more: its last report is ", now() - reported_mode_->time,
-                      " s old; the limit is ", max_chassis_age_, " s (~max_chassis_age)"));
+  throw NotReady(text("the chassis is not heard of any more: its last report is ",
+                      seconds(now() - reported_mode_->time), " old; the limit is ", seconds(max_chassis_age_),
+                      " (~max_chassis_age)"));
 }
 
 void ActionCommandProcessor::onChassis(const Chassis& chassis) {
@@ -221,8 +222,9 @@ void ActionCommandProcessor::onChassis(const Chassis& chassis) {
   const std::lock_guard<std::mutex> lock(mutex_);
   odd_stamp_.clear();
   if (age < -allowance) {
-    odd_stamp_ = text("the report of the chassis on ", subscribers_.front().getTopic(), " is stamped ", -age,
-                      " s in the future; the limit is ", allowance, " s (~max_future_stamp): do the clocks agree?");
+    odd_stamp_ =
+        text("the report of the chassis on ", subscribers_.front().getTopic(), " is stamped ", seconds(-age),
+             " in the future; the limit is ", seconds(allowance), " (~max_future_stamp): do the clocks agree?");
     return;
   }
   reported_mode_ = ReportedMode{chassis.driving_mode, now() - std::max(0.0, age)};

@@ -45,7 +45,7 @@ std::string ModeSwitch::describe(const std::optional<ReportedMode>& reported) co
   if (looks_first_) return "waiting for a report of the chassis";
   const std::string asked =
       text("the chassis was asked for ", nameOfMode(wantedMode()), " ", tries_, " of ", params_.tries,
-           " times (~mode_switch_tries), ", params_.interval, " s apart (~mode_switch_interval); ");
+           " times (~mode_switch_tries), ", seconds(params_.interval), " apart (~mode_switch_interval); ");
   const bool is_news = reported && tries_ > 0 && reported->time > first_try_;
   if (is_news) return asked + "it reports " + nameOfMode(reported->mode);
   return asked + "not confirmed: it has reported nothing since";

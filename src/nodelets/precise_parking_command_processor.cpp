@@ -109,7 +109,8 @@ void PreciseParkingCommandProcessor::processSpecialCommand(const PreciseParkingC
     if (const auto collision = checker.collisionAt(point.pose())) {
       throw GoalBlocked(text("the straight last ", metres(straight_last_), " (~straight_last) into parking_spot_pose ",
                              at(spot), " runs into ", collision->obstacle(), " at ", at(collision->at), " ",
-                             collision->extent()));
+                             collision->extent(),
+                             unknownCellsHint(vehicle, planner_->params().margin, region, point.pose())));
     }
   }
   if (plan->path.empty()) {

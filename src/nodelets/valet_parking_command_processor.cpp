@@ -210,11 +210,13 @@ std::vector<Pose2d> ValetParkingCommandProcessor::freePosesIn(const ParkingSpace
   if (!poses.empty()) return poses;
   planner_->showConflicts(spot.poses(), obstacles, plan.scene);
   const auto collision = checker.collisionAt(spot.poses().front());
-  throw GoalBlocked(text("the vehicle does not fit into parking space ", space.id, ": in its middle it overlaps ",
-                         collision ? describe(*collision, map, obstacles) : "an obstacle", ", the margin of ",
-                         metres(planner_->params().margin), " (~free_space/margin) included, and nowhere within ",
-                         metres(params_.position_tolerance), " and ", radians(params_.heading_tolerance),
-                         " of it is there room (~parking_position_tolerance, ~parking_heading_tolerance)"));
+  throw GoalBlocked(
+      text("the vehicle does not fit into parking space ", space.id, ": in its middle it overlaps ",
+           collision ? describe(*collision, map, obstacles) : "an obstacle", ", the margin of ",
+           metres(planner_->params().margin), " (~free_space/margin) included",
+           unknownCellsHint(context().params().vehicle, planner_->params().margin, obstacles, spot.poses().front()),
+           ", and nowhere within ", metres(params_.position_tolerance), " and ", radians(params_.heading_tolerance),
+           " of it is there room (~parking_position_tolerance, ~parking_heading_tolerance)"));
 }
 
 void ValetParkingCommandProcessor::park(const ValetParkingCommand& command, const Deadline& deadline,

@@ -74,10 +74,11 @@ void MotionWatch::endWhereArrived(const Pose2d& pose, double now) {
   const EndError error = endError(pose, followed_->path->back());
   const double rest = motion_.rest(now);
   if (!isWithin(error, params_.tolerances) || rest < params_.tolerances.rest) return;
-  registry_.update({serial, makeStatus(followed_->command.id, CommandStatus::FINISHED, ErrorCode::kOk,
-                                       text("the vehicle's pose tells it, not the planner: it has stood for ", rest,
-                                            " s at the end of the path, ", error.along, " m along, ", error.across,
-                                            " m across and ", error.heading, " rad off (~arrival)"))});
+  registry_.update(
+      {serial, makeStatus(followed_->command.id, CommandStatus::FINISHED, ErrorCode::kOk,
+                          text("the vehicle's pose tells it, not the planner: it has stood for ", seconds(rest),
+                               " at the end of the path, ", metres(error.along), " along, ", metres(error.across),
+                               " across and ", radians(error.heading), " off (~arrival)"))});
 }
 
 PlanStart MotionWatch::startFor(double horizon) const {

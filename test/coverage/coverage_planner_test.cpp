@@ -324,6 +324,33 @@ TEST(CoveragePlanner, RefusesAStartOutsideTheArea) {
   EXPECT_THROW(planned({box(0, 0, 40, 30), {box(4, 4, 8, 8)}}), StartBlocked);
 }
 
+TEST(CoveragePlanner, SaysWhatTheStartOverlaps) {
+  const auto refusal = [](const CoverageArea& area) -> std::string {
+    try {
+      planned(area);
+      return "";
+    } catch (const StartBlocked& error) {
+      return error.what();
+    }
+  };
+  const auto gridOf = [](std::int8_t value) {
+    OccupancyGrid grid;
+    grid.resolution = 1.0;
+    grid.width = grid.height = 4;
+    grid.origin = {3.0, 3.0, 0.0};
+    grid.cells.assign(16, value);
+    return grid;
+  };
+  const Polygon hole = box(30, 20, 31, 21), outer = box(0, 0, 40, 30);
+  EXPECT_NE(refusal({box(10, 10, 40, 30), {}}).find("sticks out of the area"), std::string::npos);
+  EXPECT_NE(refusal({outer, {hole, box(4, 4, 8, 8)}}).find("overlaps non_drivable_roi[1]"), std::string::npos);
+  const std::string occupied = refusal({outer, {hole}, gridOf(100)}), unknown = refusal({outer, {hole}, gridOf(-1)});
+  EXPECT_NE(occupied.find("overlaps an obstacle of the grid"), std::string::npos) << occupied;
+  EXPECT_EQ(occupied.find("unknown"), std::string::npos) << occupied;
+  EXPECT_NE(unknown.find("are unknown, which counts as blocked (~grid_unknown_is_blocked)"), std::string::npos)
+      << unknown;
+}
+
 TEST(CoveragePlanner, RefusesAnAreaTheVehicleDoesNotFitInto) {
   try {
     planned({box(0, 0, 1, 1), {}});
@@ -338,7 +365,7 @@ TEST(CoveragePlanner, RefusesHolesThatLeaveNothing) {
     planned({box(0, 0, 40, 30), {box(1, 1, 2, 2), box(-5, -5, 50, 50)}});
     FAIL() << "accepted";
   } catch (const InvalidRequest& error) {
-    EXPECT_NE(std::string(error.what()).find("hole 1"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("non_drivable_roi[1]"), std::string::npos) << error.what();
   }
 }
 

@@ -67,10 +67,12 @@ class ObstacleGridTest(unittest.TestCase):
         with parking() as component:
             free = self.wait_for(component, CommandStatus.OK, grid(START, 0))
             last = free.path.points[-1]
-            self.wait_for(component, CommandStatus.GOAL_BLOCKED, grid(last, -1, side=3.0))
+            unknown = self.wait_for(component, CommandStatus.GOAL_BLOCKED, grid(last, -1, side=3.0))
+            self.assertIn("are unknown, which counts as blocked (~grid_unknown_is_blocked)", unknown.status.message)
             self.wait_for(component, CommandStatus.OK, grid(last, 0, frame="/map"))
             blocked = self.wait_for(component, CommandStatus.GOAL_BLOCKED, grid(last, 100, side=3.0))
             self.assertIn("the obstacle grid", blocked.status.message)
+            self.assertNotIn("unknown", blocked.status.message)
             self.wait_for(component, CommandStatus.NOT_READY, grid(last, 0, frame="nowhere"))
             old = self.wait_for(component, CommandStatus.NOT_READY,
                                 grid(START, 0, stamp=rospy.Time.now() - rospy.Duration(600.0)))

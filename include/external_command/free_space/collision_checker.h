@@ -60,4 +60,8 @@ class CollisionChecker {
   std::unique_ptr<const Impl> impl_;
 };
 
+/// For an error text about `pose`: ", where cells of the obstacle grid are unknown ..." with the parameter, where the
+/// pose would be free if these cells were; else empty.
+std::string unknownCellsHint(const VehicleParams& vehicle, double margin, const Region& region, const Pose2d& pose);
+
 }  // namespace external_command

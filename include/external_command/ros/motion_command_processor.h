@@ -144,8 +144,8 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
 
   static void requireAnotherTry(int tries, double took) {
     if (tries < 2) return;
-    throw PlanningTimeout(text("the vehicle drove on for the ", took,
-                               " s that the planning took, and is no longer where the path begins (~max_start_shift); "
+    throw PlanningTimeout(text("the vehicle drove on for the ", seconds(took),
+                               " that the planning took, and is no longer where the path begins (~max_start_shift); "
                                "the running command goes on: send it again, or stop the vehicle first"));
   }
 
