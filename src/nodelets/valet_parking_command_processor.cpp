@@ -144,9 +144,9 @@ std::vector<LanePoint> ValetParkingCommandProcessor::otherLanes(const ParkingSpa
   return lanes;
 }
 
-bool ValetParkingCommandProcessor::hasRoute(const RoutingTask& task) const {
+bool ValetParkingCommandProcessor::findRoute(RoutingTask* task) const {
   try {
-    context().requireRouter().findRoute(task.query, CancelToken());
+    task->route = context().requireRouter().findRoute(task->query, CancelToken());
     return true;
   } catch (const NoRoute&) {
     return false;
@@ -168,11 +168,11 @@ std::optional<RoutingTask> ValetParkingCommandProcessor::convert(const ValetPark
   if (used_geometry) {
     task.warnings.push_back(text("the map has no lane overlap for parking space ", command.parking_spot_id,
                                  "; the lanes to park from were chosen by distance (~routing/parking_lane_radius)"));
-  } else if (!hasRoute(task)) {
+  } else if (!findRoute(&task)) {
     const std::vector<LanePoint> others = otherLanes(space, candidates);
     if (others.empty()) return task;
     RoutingTask other = taskTo(command, start, others);
-    if (!hasRoute(other)) return task;
+    if (!findRoute(&other)) return task;
     other.warnings.push_back(text("no route leads to lane ", map.lane(candidates.front().lane).id,
                                   ", which the map names for parking space ", space.id,
                                   "; the vehicle parks from a lane alongside"));

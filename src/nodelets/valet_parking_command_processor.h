@@ -29,7 +29,8 @@ class ValetParkingCommandProcessor : public MotionCommandProcessor<ValetParking>
   RoutingTask taskTo(const ValetParkingCommand& command, const PlanStart& start,
                      std::vector<LanePoint> candidates) const;
   std::vector<LanePoint> otherLanes(const ParkingSpace& space, const std::vector<LanePoint>& known) const;
-  bool hasRoute(const RoutingTask& task) const;
+  /// Keeps the route that it finds. @return false where there is none.
+  bool findRoute(RoutingTask* task) const;
 
   /// Replaces the end of the route by the way into the space, and its begin where the vehicle is parked.
   void park(const ValetParkingCommand& command, const Deadline& deadline, const CancelToken& cancel,

@@ -89,7 +89,7 @@ void MotionFlow::addRoute(const RoutingTask& task, double target_speed, const Ca
                           MotionPlan* plan) const {
   const Router& router = context_.requireRouter();
   const HdMap& map = router.map();
-  plan->route = router.findRoute(task.query, cancel);
+  plan->route = task.route ? task.route : router.findRoute(task.query, cancel);
   const double spacing = context_.params().reference_path.spacing;
   context_.params().path_bounds.require(plan->route->distance, plan->route->distance / spacing);
   ReferencePath path = referencePath(map, *plan->route, context_.params().vehicle, context_.params().reference_path,

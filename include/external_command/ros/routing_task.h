@@ -15,6 +15,7 @@ namespace external_command {
 /// What convert() makes of a command that drives lanes.
 struct RoutingTask {
   RouteQuery query;
+  std::optional<Route> route;         ///< of `query`, where it was searched already
   std::optional<Pose2d> vehicle;      ///< where the path begins, if it begins at the vehicle
   RoutingRequest request;             ///< the same as a message, with the nearest of several candidates
   std::vector<Point2d> way_points;    ///< for the display
