@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """A localization that the test holds in its hand."""
+import math
 import threading
 
 import rospy
@@ -9,20 +10,22 @@ from tf2_msgs.msg import TFMessage
 PERIOD = 0.05  # of wall time [s]
 
 
-def transform(parent="map", child="base_link", x=0.0, y=0.0, stamp=None, w=1.0):
+def transform(parent="map", child="base_link", x=0.0, y=0.0, stamp=None, w=1.0, z=0.0, heading=0.0):
+    """`w` is that of the quaternion where there is no heading."""
     result = TransformStamped()
     result.header.frame_id, result.child_frame_id = parent, child
     result.header.stamp = rospy.Time.now() if stamp is None else stamp
-    result.transform.translation.x, result.transform.translation.y = x, y
-    result.transform.rotation.w = w
+    result.transform.translation.x, result.transform.translation.y, result.transform.translation.z = x, y, z
+    result.transform.rotation.w = math.cos(heading / 2.0) if heading else w
+    result.transform.rotation.z = math.sin(heading / 2.0)
     return result
 
 
 class Localization:
-    """Publishes the pose (x, y) of base_link in map, between `start()` and `stop()`."""
+    """Publishes the pose of base_link in map, between `start()` and `stop()`."""
 
-    def __init__(self, x, y):
-        self.x, self.y = x, y
+    def __init__(self, x, y, heading=0.0, z=0.0):
+        self.x, self.y, self.heading, self.z = x, y, heading, z
         self.publisher = rospy.Publisher("/tf", TFMessage, queue_size=100)
         self._is_stopped = threading.Event()
         self._thread = None
@@ -41,4 +44,4 @@ class Localization:
 
     def _run(self):
         while not self._is_stopped.wait(PERIOD):
-            self.send(transform(x=self.x, y=self.y))
+            self.send(transform(x=self.x, y=self.y, z=self.z, heading=self.heading))
