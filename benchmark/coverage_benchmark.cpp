@@ -128,10 +128,12 @@ void report(const CoverageCheck& check, double seconds, double cpu_seconds, Summ
 }
 
 /// With what a controller could not rely on in the path as it would be sent, its caps of speed made limits.
-CoverageCheck checkedAsSent(const CoverageCase& field, Path path) {
+CoverageCheck checkedAsSent(const CoverageCase& field, const CoverageParams& params, Path path) {
   CoverageCheck check = checkCoverage(field, path);
   limitSpeeds(field.vehicle, &path);
-  const std::string fault = commandPathFault(path, field.vehicle);
+  CommandPathLimits limits;
+  limits.max_gap = 1.01 * params.spacing;
+  const std::string fault = commandPathFault(path, field.vehicle, std::nullopt, limits);
   if (!fault.empty()) check.faults.push_back(fault);
   return check;
 }
@@ -146,7 +148,7 @@ void runField(const CoverageCase& field, const Options& options, Summary* summar
     const CoverageResult result = CoveragePlanner(field.vehicle, params).plan(field.area(), field.start, {}, {});
     const double cpu_seconds = static_cast<double>(std::clock() - cpu_begin) / CLOCKS_PER_SEC;
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
-    report(checkedAsSent(field, result.path), elapsed.count(), cpu_seconds, summary);
+    report(checkedAsSent(field, params, result.path), elapsed.count(), cpu_seconds, summary);
     if (!options.paths.empty()) writeCoveragePath(result.path, options.paths + "/" + field.name + ".json");
     if (!options.drawings.empty()) drawCoverage(field, result.path, options.drawings + "/" + field.name + ".svg");
   } catch (const Error& error) {
