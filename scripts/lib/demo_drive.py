@@ -72,8 +72,8 @@ class Drive:
         if start is None:
             start, goal, answer = self._longest_route()
         else:
-            start = Pose(start[0] - self._origin[0], start[1] - self._origin[1], start[2], True)
-            goal = Pose(goal[0] - self._origin[0], goal[1] - self._origin[1], 0.0, False)
+            start = Pose(x=start[0] - self._origin[0], y=start[1] - self._origin[1], heading=start[2], has_heading=True)
+            goal = Pose(x=goal[0] - self._origin[0], y=goal[1] - self._origin[1])
             answer = self._dry_run(start, goal)
             if answer.status.status == CommandStatus.ERROR:
                 raise DemoError(f"no route from --from to --to: {answer.status.message}")
@@ -100,7 +100,7 @@ class Drive:
             raise DemoError(f"no route between any two of {len(places)} lanes of this map; try --from and --to")
         *_, goal, answer = max(found, key=lambda route: route[:2])
         first = answer.path.points[0]
-        return Pose(first.x, first.y, first.heading, True), Pose(x=goal[0], y=goal[1]), answer
+        return Pose(x=first.x, y=first.y, heading=first.heading, has_heading=True), Pose(x=goal[0], y=goal[1]), answer
 
     def _lane_points(self):
         """Points on the centre lines of the lanes to drive on, from the markers for rviz."""
