@@ -8,7 +8,7 @@ EC_DEBIAN_BUILD_PACKAGES=(
   libroscpp-dev libnodelet-dev libnodeletlib-dev pluginlib-dev libtf2-dev libtf2-msgs-dev libtf2-geometry-msgs-dev
   libgeometry-msgs-dev libnav-msgs-dev libstd-msgs-dev libvisualization-msgs-dev
   ros-geometry-msgs ros-nav-msgs ros-std-msgs ros-visualization-msgs
-  libboost-dev libeigen3-dev libompl-dev libprotobuf-dev libtinyxml2-dev
+  libboost-dev libeigen3-dev libmetis-dev libompl-dev libprotobuf-dev libtinyxml2-dev
 )
 # Beside the libraries; the package of scripts/package depends on these.
 EC_DEBIAN_RUN_PACKAGES=(
@@ -28,8 +28,8 @@ EC_DEBIAN_PICTURE_PACKAGES=(xvfb x11-utils imagemagick libgl1-mesa-dri)
 
 # Names of Ubuntu 20.04 with Noetic from packages.ros.org.
 EC_NOETIC_BUILD_PACKAGES=(
-  g++ make cmake protobuf-compiler python3-setuptools libboost-dev libeigen3-dev libprotobuf-dev
-  libtinyxml2-dev
+  g++ make cmake protobuf-compiler python3-setuptools libboost-dev libeigen3-dev libmetis-dev
+  libprotobuf-dev libtinyxml2-dev
   ros-noetic-catkin ros-noetic-geometry-msgs ros-noetic-message-generation ros-noetic-nav-msgs ros-noetic-nodelet
   ros-noetic-ompl ros-noetic-pluginlib ros-noetic-roscpp ros-noetic-std-msgs ros-noetic-tf2
   ros-noetic-tf2-geometry-msgs ros-noetic-tf2-msgs ros-noetic-visualization-msgs

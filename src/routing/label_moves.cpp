@@ -11,10 +11,12 @@ namespace external_command {
 namespace {
 
 constexpr double kLeastChangePrice = 0.01;  // [m]: of routes that are equally long the one with fewer changes counts
-constexpr double kSamePlace = 0.001;        // [m]
-constexpr double kTiny = 1e-9;              // [m]
-constexpr int kMaxChangePieces = 64;        // over which one change may run
-constexpr int kMaxLanesBehind = 5;          // over which a place behind a start is looked for
+constexpr double kLateChangePrice =
+    1e-8;                             // per metre driven before it: of equal routes the one that changes early counts
+constexpr double kSamePlace = 0.001;  // [m]
+constexpr double kTiny = 1e-9;        // [m]
+constexpr int kMaxChangePieces = 64;  // over which one change may run
+constexpr int kMaxLanesBehind = 5;    // over which a place behind a start is looked for
 
 }  // namespace
 
@@ -116,7 +118,8 @@ void LabelSearch::change(std::int32_t index, const Neighbour& neighbour, double 
 
 void LabelSearch::change(std::int32_t index, const Neighbour& neighbour, double old_s, const Interval& new_part,
                          double need) {
-  const double price = std::max(params_.lane_change_price, kLeastChangePrice);
+  const double price =
+      std::max(params_.lane_change_price, kLeastChangePrice) + kLateChangePrice * work_.labels[index].distance;
   const double length = rule_ == ChangeRule::kWithoutRoom ? 0.0 : std::max(params_.min_lane_change_length, need);
   const LaneIndex lane = work_.labels[index].lane;
   cross(index, neighbour, old_s, new_part, {lane, length, length, price, 0});
@@ -130,8 +133,9 @@ void LabelSearch::cross(std::int32_t index, const Neighbour& neighbour, double o
   const bool begins = crossing.pieces == 0;
   const SearchLabel& parent = work_.labels[index];
   const double room = new_part.to - new_part.from;
-  const double anchor = begins ? neighbour.pair.toB(parent.anchor_s) : parent.anchor_s;
-  const double to_begin = begins ? (new_part.from - anchor) - (parent.s - parent.anchor_s) : 0.0;
+  const double old_anchor = std::max(parent.anchor_s, neighbour.pair.a_from);
+  const double anchor = begins ? neighbour.pair.toB(old_anchor) : parent.anchor_s;
+  const double to_begin = begins ? (new_part.from - anchor) - (parent.s - old_anchor) : 0.0;
   const double driven = to_begin + std::min(room, crossing.rest);
   SearchLabel label;
   label.lane = neighbour.pair.b;
@@ -143,7 +147,7 @@ void LabelSearch::cross(std::int32_t index, const Neighbour& neighbour, double o
   label.side = neighbour.pair.side;
   label.change_s = old_s;
   label.from_s = new_part.from;
-  label.anchor_s = begins || label.lane == parent.lane ? anchor : 0.0;
+  label.anchor_s = begins || label.lane == parent.lane ? anchor : new_part.from;
   label.change_length = crossing.length;
   if (room >= crossing.rest - kTiny) return add(label);
   if (new_part.to < neighbour.pair.b_to - kSamePlace || crossing.pieces == kMaxChangePieces) return;

@@ -21,27 +21,29 @@ SearchWorkspace& workspaceFor(std::size_t lanes) {
 
 }  // namespace
 
-LabelSearch::LabelSearch(const LaneGraph& graph, const RouterParams& params, ChangeRule rule,
+LabelSearch::LabelSearch(const LaneGraph& graph, const RouteIndex* index, const RouterParams& params, ChangeRule rule,
                          const BlockedLanes& blocked, const CancelToken& cancel)
     : graph_(graph),
       params_(params),
       rule_(rule),
       blocked_(blocked),
       cancel_(cancel),
-      work_(workspaceFor(graph.size())) {}
+      work_(workspaceFor(graph.size())) {
+  if (index != nullptr) distances_.emplace(graph, *index);
+}
 
 void LabelSearch::beginLeg(const std::vector<LanePoint>& targets) {
   ++work_.leg;
   work_.queue.clear();
   work_.reached_targets.swap(work_.targets);
   work_.targets.clear();
-  entries_.clear();
   reached_lanes_ = 0;
   for (std::size_t i = 0; i < targets.size(); ++i) {
     SearchWorkspace::LaneSlot& slot = work_.slotOf(targets[i].lane);
     work_.targets.push_back({targets[i], static_cast<std::int32_t>(i), slot.first_target, false});
     slot.first_target = static_cast<std::int32_t>(i);
   }
+  if (distances_) distances_->setTargets(targets);
 }
 
 void LabelSearch::addStart(const LanePoint& start, std::int32_t candidate) {
@@ -65,8 +67,7 @@ void LabelSearch::leaveFrom(std::int32_t arrival) {
 std::vector<std::int32_t> LabelSearch::drive(Reach reach) {
   std::vector<std::int32_t> arrivals;
   const std::size_t wanted = reach == Reach::kToFirst ? 1 : work_.targets.size();
-  const bool goes_on = reach != Reach::kToEntries;
-  for (unsigned polls = 0; !work_.queue.empty() && (!goes_on || arrivals.size() < wanted); ++polls) {
+  for (unsigned polls = 0; !work_.queue.empty() && arrivals.size() < wanted; ++polls) {
     if (polls % kPollInterval == 0) cancel_.throwIfCancelled();
     const std::int32_t index = work_.queue.front().label;
     std::pop_heap(work_.queue.begin(), work_.queue.end());
@@ -78,8 +79,6 @@ std::vector<std::int32_t> LabelSearch::drive(Reach reach) {
       if (work_.targets[label.candidate].is_reached) continue;
       work_.targets[label.candidate].is_reached = true;
       arrivals.push_back(index);
-    } else if (label.move == Move::kFollow && !goes_on) {
-      entries_.push_back(index);
     } else {
       expand(index);
     }
@@ -87,14 +86,14 @@ std::vector<std::int32_t> LabelSearch::drive(Reach reach) {
   return arrivals;
 }
 
-const SearchLabel& LabelSearch::label(std::int32_t index) const { return work_.labels[index]; }
-
 std::vector<SearchLabel> LabelSearch::wayTo(std::int32_t index) const {
   std::vector<SearchLabel> way;
   for (; index >= 0; index = work_.labels[index].parent) way.push_back(work_.labels[index]);
   std::reverse(way.begin(), way.end());
   return way;
 }
+
+std::size_t LabelSearch::foundLabels() const { return work_.labels.size(); }
 
 bool LabelSearch::isBeaten(const SearchLabel& label, std::int32_t first_on_lane) {
   for (std::int32_t i = first_on_lane; i >= 0; i = work_.labels[i].next_on_lane) {
@@ -124,8 +123,16 @@ std::int32_t LabelSearch::store(const SearchLabel& label) {
 }
 
 void LabelSearch::enqueue(std::int32_t index) {
-  work_.queue.push_back({work_.labels[index].cost, index});
+  const SearchLabel& label = work_.labels[index];
+  work_.queue.push_back({label.cost + leastRest(label), index});
   std::push_heap(work_.queue.begin(), work_.queue.end());
+}
+
+/// What it takes from here to the nearest target at least [m]. From where a leg starts, also targets just behind are
+/// reached: nothing is known.
+double LabelSearch::leastRest(const SearchLabel& label) {
+  if (!distances_ || label.move == Move::kStart || label.move == Move::kArrive) return 0.0;
+  return distances_->from(label.lane, label.anchor_s) - (label.s - label.anchor_s);
 }
 
 }  // namespace external_command

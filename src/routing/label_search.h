@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "blocked_lanes.h"
 #include "external_command/core/cancel_token.h"
+#include "goal_distances.h"
 #include "lane_graph.h"
 #include "search_label.h"
 
@@ -12,7 +14,9 @@ namespace external_command {
 
 struct SearchWorkspace;
 
-/// Shortest routes by label setting (Dijkstra) over places on lanes, leg by leg.
+/// Shortest routes over places on lanes, leg by leg: the cheapest label is settled next (Dijkstra), or, where an index
+/// tells how far the targets are at least, the one that promises the cheapest route (A*). Labels are set again where a
+/// cheaper way to them is found, so that the bounds need not be consistent.
 ///
 /// A label is a place (lane, s). From it one drives on: to the successors, whose beginning becomes a label, to targets
 /// on the lane, and to the neighbour lanes. A change begins where it first can, at the label or where the line becomes
@@ -27,13 +31,13 @@ class LabelSearch {
  public:
   /// How far a leg goes.
   enum class Reach {
-    kToFirst,    ///< until the nearest target is reached
-    kToAll,      ///< until all are
-    kToEntries,  ///< until all are, but no further than to the beginnings of the next lanes
+    kToFirst,  ///< until the nearest target is reached
+    kToAll,    ///< until all are
   };
 
-  LabelSearch(const LaneGraph& graph, const RouterParams& params, ChangeRule rule, const BlockedLanes& blocked,
-              const CancelToken& cancel);
+  /// @param index  nullptr: there is none.
+  LabelSearch(const LaneGraph& graph, const RouteIndex* index, const RouterParams& params, ChangeRule rule,
+              const BlockedLanes& blocked, const CancelToken& cancel);
 
   void beginLeg(const std::vector<LanePoint>& targets);
   void addStart(const LanePoint& start, std::int32_t candidate);
@@ -45,14 +49,8 @@ class LabelSearch {
   /// @throws Cancelled
   std::vector<std::int32_t> drive(Reach reach);
 
-  /// Of a leg with kToEntries: the labels at the beginnings of the next lanes.
-  const std::vector<std::int32_t>& entries() const { return entries_; }
-
-  std::size_t reachedLanes() const { return reached_lanes_; }
-  const SearchLabel& label(std::int32_t index) const;
-
-  /// Adds a label that was found otherwise.
-  std::int32_t store(const SearchLabel& label);
+  std::size_t reachedLanes() const { return reached_lanes_; }  ///< of this leg
+  std::size_t foundLabels() const;                             ///< of all legs
 
   /// The labels that lead to this one, from the first start on.
   std::vector<SearchLabel> wayTo(std::int32_t index) const;
@@ -72,7 +70,9 @@ class LabelSearch {
   };
 
   void add(SearchLabel label);
+  std::int32_t store(const SearchLabel& label);
   void enqueue(std::int32_t index);
+  double leastRest(const SearchLabel& label);
   bool isBeaten(const SearchLabel& label, std::int32_t first_on_lane);
   void expand(std::int32_t index);
   void arrive(std::int32_t index, const SearchLabel& label);
@@ -93,7 +93,7 @@ class LabelSearch {
   const BlockedLanes& blocked_;
   const CancelToken& cancel_;
   SearchWorkspace& work_;
-  std::vector<std::int32_t> entries_;
+  std::optional<GoalDistances> distances_;
   std::size_t reached_lanes_ = 0;
 };
 

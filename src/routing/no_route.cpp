@@ -69,7 +69,7 @@ std::string tightChange(const HdMap& map, const Route& route) {
 std::string whyNoRoute(const HdMap& map, const LaneGraph& graph, const RouterParams& params, const RouteQuery& query,
                        const CancelToken& cancel) {
   const BlockedLanes blocked(query.black_list), free({});
-  const SearchResult failed = searchRoute(graph, params, ChangeRule::kWithRoom, query, blocked, cancel);
+  const SearchResult failed = searchRoute(graph, nullptr, params, ChangeRule::kWithRoom, query, blocked, cancel);
   const std::string what = text("no route from ", described(map, query, failed.failed_leg), " to ",
                                 described(map, query, failed.failed_leg + 1));
   for (const std::size_t end : {failed.failed_leg, failed.failed_leg + 1}) {
@@ -78,11 +78,11 @@ std::string whyNoRoute(const HdMap& map, const LaneGraph& graph, const RouterPar
                                          [&](const LanePoint& point) { return blocked.contains(point.lane, point.s); });
     if (all_blocked) return text(what, ": the black list covers the ", pointName(query, end));
   }
-  const SearchResult squeezed = searchRoute(graph, params, ChangeRule::kWithoutRoom, query, blocked, cancel);
+  const SearchResult squeezed = searchRoute(graph, nullptr, params, ChangeRule::kWithoutRoom, query, blocked, cancel);
   const std::string change =
       squeezed.labels.empty() ? "" : tightChange(map, buildRoute(graph, blocked, squeezed.labels));
   if (!query.black_list.empty()) {
-    const SearchResult unblocked = searchRoute(graph, params, ChangeRule::kWithRoom, query, free, cancel);
+    const SearchResult unblocked = searchRoute(graph, nullptr, params, ChangeRule::kWithRoom, query, free, cancel);
     if (!unblocked.labels.empty()) {
       const std::string cut = cutLanes(map, query.black_list, buildRoute(graph, free, unblocked.labels));
       return text(what, ": the black list ",

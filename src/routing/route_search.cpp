@@ -3,9 +3,9 @@
 
 namespace external_command {
 
-SearchResult searchRoute(const LaneGraph& graph, const RouterParams& params, ChangeRule rule, const RouteQuery& query,
-                         const BlockedLanes& blocked, const CancelToken& cancel) {
-  LabelSearch search(graph, params, rule, blocked, cancel);
+SearchResult searchRoute(const LaneGraph& graph, const RouteIndex* index, const RouterParams& params, ChangeRule rule,
+                         const RouteQuery& query, const BlockedLanes& blocked, const CancelToken& cancel) {
+  LabelSearch search(graph, index, params, rule, blocked, cancel);
   std::vector<std::int32_t> ends;
   for (std::size_t leg = 0; leg <= query.via.size(); ++leg) {
     const bool is_last = leg == query.via.size();
@@ -15,9 +15,9 @@ SearchResult searchRoute(const LaneGraph& graph, const RouterParams& params, Cha
     }
     for (const std::int32_t end : ends) search.leaveFrom(end);
     ends = search.drive(is_last ? LabelSearch::Reach::kToFirst : LabelSearch::Reach::kToAll);
-    if (ends.empty()) return {{}, leg, search.reachedLanes()};
+    if (ends.empty()) return {{}, leg, search.reachedLanes(), search.foundLabels()};
   }
-  return {search.wayTo(ends.front()), 0, 0};
+  return {search.wayTo(ends.front()), 0, 0, search.foundLabels()};
 }
 
 }  // namespace external_command

@@ -101,11 +101,12 @@ void RouterParams::validate() const {
 
 struct Router::Impl {
   Impl(std::shared_ptr<const HdMap> hd_map, const RouterParams& router_params)
-      : map(std::move(hd_map)), params(router_params), graph(*map, params) {}
+      : map(std::move(hd_map)), params(router_params), graph(*map, params), index(graph, params) {}
 
   std::shared_ptr<const HdMap> map;
   RouterParams params;
   LaneGraph graph;
+  RouteIndex index;
 };
 
 Router::Router(std::shared_ptr<const HdMap> map, const RouterParams& params) {
@@ -124,7 +125,8 @@ Route Router::findRoute(const RouteQuery& request, const CancelToken& cancel) co
   const LaneGraph& graph = impl_->graph;
   const RouteQuery query = checked(request, graph, map());
   const BlockedLanes blocked(query.black_list);
-  const SearchResult found = searchRoute(graph, impl_->params, ChangeRule::kWithRoom, query, blocked, cancel);
+  const SearchResult found =
+      searchRoute(graph, &impl_->index, impl_->params, ChangeRule::kWithRoom, query, blocked, cancel);
   if (found.labels.empty()) throw NoRoute(whyNoRoute(map(), graph, impl_->params, query, cancel));
   Route route = buildRoute(graph, blocked, found.labels);
   warnOfTightChanges(map(), impl_->params.min_lane_change_length, &route);

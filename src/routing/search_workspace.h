@@ -10,7 +10,7 @@ namespace external_command {
 /// Memory of LabelSearch that outlives a query, so that the next one of this thread need not clear or allocate it.
 struct SearchWorkspace {
   struct QueueEntry {
-    double cost;
+    double cost;  ///< of the label, and the rest of the route at least [m]
     std::int32_t label;
     /// The cheapest on top; among equals the one found first.
     bool operator<(const QueueEntry& other) const {
