@@ -48,8 +48,9 @@ class Reader {
   const std::string& what() const { return what_; }
 
  private:
+  static inline const JsonTree kNothing;  // outlives what get_child() returns a reference to
+
   void readFeature(const JsonTree& feature) {
-    static const JsonTree kNothing;
     readGeometry(feature.get_child("geometry", kNothing), feature.get_child("properties", kNothing));
   }
 
@@ -68,7 +69,7 @@ class Reader {
     CoverageCase field;
     field.name = fileName(properties.get("name", stem_));
     field.swath_width = isGiven(properties, "swath_width") ? properties.get<double>("swath_width") : kTractorSwath;
-    field.vehicle = vehicleOf(properties.get_child("vehicle", JsonTree()), tractor());
+    field.vehicle = vehicleOf(properties.get_child("vehicle", kNothing), tractor());
     if (isGiven(properties, "start")) {
       const std::vector<double> pose = numbersOf(properties.get_child("start"), 3, "start");
       field.start = Pose2d{pose[0], pose[1], pose[2]};
