@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the benchmark programs: run_benchmarks.py BUILD_DIR MAP...
+"""Runs the benchmark programs: run_benchmarks.py BUILD_DIR MAP... [--cities CITY...]
+
+A CITY is a map file for which only the search for routes is measured.
 
 Each program prints a JSON document (an object or a list of objects, a measurement each) to its standard output.
 """
@@ -64,13 +66,16 @@ def summary(measurement):
     return "  ".join(words) + ("\n    " + ", ".join(values) if values else "")
 
 
-def main(build_dir, maps):
+def main(build_dir, maps, cities):
     signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell ignores it in background jobs, for children too
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     measurements = []
-    for name in ("map_benchmark", "routing_benchmark"):
+    for name in ("map_benchmark", "routing_benchmark") if maps else ():
         measurements += measure(name, [executable(build_dir, name), *maps], MAP_TIMEOUT)
-    measurements += measure_service(build_dir, maps[0])
+    measurements += measure("route_search_benchmark",
+                            [executable(build_dir, "route_search_benchmark"), *maps, *cities], MAP_TIMEOUT)
+    if maps:
+        measurements += measure_service(build_dir, maps[0])
     lines = "".join(json.dumps(measurement) + "\n" for measurement in measurements)
     with open(os.path.join(build_dir, "benchmark.jsonl"), "w", encoding="utf-8") as file:
         file.write(lines)
@@ -79,4 +84,6 @@ def main(build_dir, maps):
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1], sys.argv[2:]))
+    files = sys.argv[2:]
+    split = files.index("--cities") if "--cities" in files else len(files)
+    sys.exit(main(sys.argv[1], files[:split], files[split + 1:]))

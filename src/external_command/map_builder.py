@@ -185,6 +185,19 @@ class MapBuilder:
                 overlaps.append((lane.id, inside[0], inside[-1]))
         self.areas.append(Space(id, polygon, overlaps, name=name))
 
+    def take_out(self, is_wanted):
+        """Moves the roads of whose id `is_wanted` is true, with their lanes and the parking spaces beside these, and all
+        junctions, into a builder of their own, and returns that."""
+        taken = MapBuilder()
+        taken.roads = [road for road in self.roads if is_wanted(road.id)]
+        self.roads = [road for road in self.roads if not is_wanted(road.id)]
+        taken.lanes = {lane_id: self.lanes.pop(lane_id)
+                       for road in taken.roads for section in road.sections for lane_id in section}
+        taken.parking_spaces = [space for space in self.parking_spaces if space.lanes[0][0] in taken.lanes]
+        self.parking_spaces = [space for space in self.parking_spaces if space.lanes[0][0] in self.lanes]
+        taken.junctions, self.junctions = self.junctions, {}
+        return taken
+
     def _add_direction(self, prefixes, center, cuts, kind):
         """For each section its lanes to the right of `center`, in its direction, from there outwards."""
         lines = [curves.offset(center, -0.5 * kind.width * n) for n in range(2 * kind.lanes + 1)]

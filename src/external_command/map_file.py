@@ -24,6 +24,21 @@ def write_map(builder, proto_folder, folder, version, projection):
         file.write(message.SerializeToString(deterministic=True))
 
 
+class MapWriter:
+    """Writes a map part by part into one binary file: messages whose bytes follow each other are merged when read."""
+
+    def __init__(self, file, proto_folder, version, projection):
+        self._file = file
+        self._pb2 = load_format(proto_folder)
+        self._file.write(_header(self._pb2, version, projection).SerializeToString(deterministic=True))
+
+    def write(self, builder):
+        """Appends the objects of `builder`."""
+        message = self._pb2.Map()
+        _fill_map(message, builder, self._pb2)
+        self._file.write(message.SerializeToString(deterministic=True))
+
+
 def load_format(proto_folder):
     """The Python module of the map format, made by protoc."""
     with tempfile.TemporaryDirectory() as folder:
@@ -36,9 +51,19 @@ def load_format(proto_folder):
 
 
 def to_message(builder, pb2, version, projection):
+    message = _header(pb2, version, projection)
+    _fill_map(message, builder, pb2)
+    return message
+
+
+def _header(pb2, version, projection):
     message = pb2.Map()
     message.header.version = version.encode()
     message.header.projection.proj = projection.encode()
+    return message
+
+
+def _fill_map(message, builder, pb2):
     for lane in builder.lanes.values():
         _fill_lane(message.lane.add(), lane, pb2)
     for road in builder.roads:
@@ -54,7 +79,6 @@ def to_message(builder, pb2, version, projection):
     for space in builder.areas:
         target = message.ad_area.add(name=space.name.encode())
         _fill_space(target, space, message, lanes)
-    return message
 
 
 def _fill_lane(target, lane, pb2):
