@@ -2,156 +2,228 @@
 #include "contraction_hierarchy.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "elimination_order.h"
+#include "supernodes.h"
 
 namespace external_command {
 
 namespace {
 
-constexpr std::int32_t kUnreachable = RelaxedGraph::kUnreachable;
+using Weight = std::int32_t;
+using Weights = std::vector<Weight>;
 
-void lower(std::int32_t value, std::int32_t* weight) { *weight = std::min(*weight, value); }
+constexpr Weight kUnreachable = RelaxedGraph::kUnreachable;
 
-}  // namespace
+void lower(Weight value, Weight* weight) { *weight = std::min(*weight, value); }
 
-/// Arcs are kept as pairs, one each way, between a node and one above it, by the lower node and then by the upper.
-class ContractionHierarchy::Builder {
+/// Lowers each of `targets` to `start` and what leads on from there.
+void lowerAll(Weight start, const Weight* onward, std::size_t count, Weight* targets) {
+  for (std::size_t i = 0; i < count; ++i) targets[i] = std::min(targets[i], start + onward[i]);
+}
+
+/// The least sum of two that belong together.
+Weight leastSum(const Weight* a, const Weight* b, std::size_t count) {
+  Weight least = kUnreachable;
+  for (std::size_t i = 0; i < count; ++i) least = std::min(least, a[i] + b[i]);
+  return least;
+}
+
+/// Of some supernodes above another: which columns its nodes above have there.
+class ColumnsAbove {
  public:
-  Builder(const RelaxedGraph& graph, ContractionHierarchy* result) : graph_(graph), result_(*result) {}
-
-  void build() {
-    setRanks();
-    linkUppers();
-    listLowers();
-    setWeights();
-    lowerByTrianglesBelow();
-    detourByTrianglesAbove();
-    keepNeeded(up_, up_detour_, &result_.first_up_, &result_.up_);
-    keepNeeded(down_, down_detour_, &result_.first_down_, &result_.down_);
+  /// Calls `visit(node, upper, i, columns)` for each node above `low`: it is the `i`th, of supernode `upper`, and
+  /// `columns[k]` is where the `k`th is in its rows, from i + 1 on.
+  template <class Visit>
+  void visit(const Supernodes& supernodes, const Supernode& low, const Visit& visit) {
+    columns_.resize(low.above.size());
+    const Supernode* upper = nullptr;
+    for (std::size_t i = 0; i < low.above.size(); ++i) {
+      const std::uint32_t node = low.above[i];
+      if (upper == nullptr || node >= upper->first + upper->count) {
+        upper = &supernodes.of(node);
+        for (std::size_t k = i; k < columns_.size(); ++k) columns_[k] = upper->columnOf(low.above[k]);
+      }
+      visit(node, *upper, i, columns_);
+    }
   }
 
  private:
-  void setRanks() {
-    const std::vector<LaneIndex> order = eliminationOrder(graph_);
-    result_.rank_.resize(graph_.size());
-    for (std::uint32_t rank = 0; rank < order.size(); ++rank) result_.rank_[order[rank]] = rank;
+  std::vector<std::size_t> columns_;
+};
+
+std::vector<std::vector<std::uint32_t>> uppersOf(const RelaxedGraph& graph, const std::vector<std::uint32_t>& rank) {
+  std::vector<std::vector<std::uint32_t>> uppers(graph.size());
+  for (const RelaxedGraph::Arc& arc : graph.arcs) {
+    const auto [low, high] = std::minmax(rank[arc.tail], rank[arc.head]);
+    if (low != high) uppers[low].push_back(high);
+  }
+  return uppers;
+}
+
+}  // namespace
+
+/// A node's row holds the weights of its arcs up to the columns' nodes, and in a second array those of the arcs down
+/// from there; what lies below the node in a supernode is not used.
+class ContractionHierarchy::Builder {
+ public:
+  Builder(const RelaxedGraph& graph, ContractionHierarchy* result)
+      : graph_(graph),
+        result_(*result),
+        supernodes_(uppersOf(graph, result->rank_)),
+        up_(supernodes_.cells(), kUnreachable),
+        down_(supernodes_.cells(), kUnreachable) {}
+
+  void build() {
+    setWeights();
+    for (const Supernode& own : supernodes_.all()) {
+      lowerInside(own);
+      lowerAbove(own);
+    }
+    const std::vector<Supernode>& all = supernodes_.all();
+    for (auto own = all.rbegin(); own != all.rend(); ++own) dropDetours(*own);
+    store();
   }
 
-  /// Where a node is taken out, all nodes above it that it links become linked to each other.
-  void linkUppers() {
-    std::vector<std::vector<std::uint32_t>> uppers(graph_.size());
-    for (const RelaxedGraph::Arc& arc : graph_.arcs) {
-      const auto [low, high] = std::minmax(result_.rank_[arc.tail], result_.rank_[arc.head]);
-      if (low != high) uppers[low].push_back(high);
-    }
-    result_.parent_.assign(graph_.size(), kNoParent);
-    first_.push_back(0);
-    for (std::vector<std::uint32_t>& own : uppers) {
-      std::sort(own.begin(), own.end());
-      own.erase(std::unique(own.begin(), own.end()), own.end());
-      if (!own.empty()) {
-        result_.parent_[first_.size() - 1] = own.front();
-        std::vector<std::uint32_t>& parents = uppers[own.front()];
-        parents.insert(parents.end(), own.begin() + 1, own.end());
-      }
-      upper_.insert(upper_.end(), own.begin(), own.end());
-      first_.push_back(static_cast<std::uint32_t>(upper_.size()));
-      own = {};
-    }
-  }
-
-  /// For each node the pairs that lead to it from below.
-  void listLowers() {
-    first_lower_.assign(graph_.size() + 1, 0);
-    for (const std::uint32_t upper : upper_) ++first_lower_[upper + 1];
-    for (std::size_t i = 1; i < first_lower_.size(); ++i) first_lower_[i] += first_lower_[i - 1];
-    std::vector<std::uint32_t> next(first_lower_.begin(), first_lower_.end() - 1);
-    lower_.resize(upper_.size());
-    for (std::uint32_t low = 0; low < graph_.size(); ++low) {
-      for (std::uint32_t pair = first_[low]; pair < first_[low + 1]; ++pair) {
-        lower_[next[upper_[pair]]++] = {pair, first_[low + 1]};
-      }
-    }
-  }
-
+ private:
   void setWeights() {
-    up_.assign(upper_.size(), kUnreachable);
-    down_ = up_;
     for (const RelaxedGraph::Arc& arc : graph_.arcs) {
       const std::uint32_t tail = result_.rank_[arc.tail], head = result_.rank_[arc.head];
       if (tail == head) continue;
-      const std::uint32_t low = std::min(tail, head);
-      const auto begin = upper_.begin() + first_[low], end = upper_.begin() + first_[low + 1];
-      const auto pair = static_cast<std::size_t>(std::lower_bound(begin, end, std::max(tail, head)) - upper_.begin());
-      lower(arc.weight, tail < head ? &up_[pair] : &down_[pair]);
+      const Supernode& own = supernodes_.of(std::min(tail, head));
+      const std::size_t cell = own.row(std::min(tail, head)) + own.columnOf(std::max(tail, head));
+      lower(arc.weight, tail < head ? &up_[cell] : &down_[cell]);
     }
   }
 
-  /// Calls `visit(to_middle, to_top, middle_to_top)` with the pairs of each triangle whose middle node is `middle`.
-  template <class Visit>
-  void visitTriangles(std::uint32_t middle, const Visit& visit) {
-    for (std::uint32_t pair = first_[middle]; pair < first_[middle + 1]; ++pair) pair_to_[upper_[pair]] = pair;
-    for (std::uint32_t i = first_lower_[middle]; i < first_lower_[middle + 1]; ++i) {
-      for (std::uint32_t to_top = lower_[i].pair + 1; to_top < lower_[i].end; ++to_top) {
-        visit(lower_[i].pair, to_top, pair_to_[upper_[to_top]]);
+  /// Ways over a node below, between nodes of one supernode and from there up.
+  void lowerInside(const Supernode& own) {
+    const std::size_t width = own.width();
+    for (std::size_t below = 0; below < own.count; ++below) {
+      const Weight *up = &up_[own.rows + below * width], *down = &down_[own.rows + below * width];
+      for (std::size_t i = below + 1; i < own.count; ++i) {
+        const std::size_t row = own.rows + i * width;
+        lowerAll(down[i], up + i + 1, width - i - 1, &up_[row + i + 1]);
+        lowerAll(up[i], down + i + 1, width - i - 1, &down_[row + i + 1]);
       }
     }
   }
 
-  void lowerByTrianglesBelow() {
-    pair_to_.resize(graph_.size());
-    for (std::uint32_t middle = 0; middle < graph_.size(); ++middle) {
-      visitTriangles(middle, [this](std::uint32_t to_middle, std::uint32_t to_top, std::uint32_t onward) {
-        lower(down_[to_middle] + up_[to_top], &up_[onward]);
-        lower(down_[to_top] + up_[to_middle], &down_[onward]);
-      });
-    }
+  /// Ways over the nodes of a supernode, between nodes above it.
+  void lowerAbove(const Supernode& own) {
+    const std::size_t width = own.width();
+    columns_.visit(supernodes_, own,
+                   [&](std::uint32_t node, const Supernode& upper, std::size_t i, const auto& columns) {
+                     const std::size_t rest = own.above.size() - i - 1, column = own.count + i;
+                     way_up_.assign(rest, kUnreachable);
+                     way_down_.assign(rest, kUnreachable);
+                     for (std::size_t row = own.rows; row < own.rows + own.count * width; row += width) {
+                       lowerAll(down_[row + column], &up_[row + column] + 1, rest, way_up_.data());
+                       lowerAll(up_[row + column], &down_[row + column] + 1, rest, way_down_.data());
+                     }
+                     const std::size_t row = upper.row(node);
+                     for (std::size_t k = 0; k < rest; ++k) {
+                       lower(way_up_[k], &up_[row + columns[i + 1 + k]]);
+                       lower(way_down_[k], &down_[row + columns[i + 1 + k]]);
+                     }
+                   });
   }
 
-  /// The shortest way other than the arc itself, over nodes above its lower end.
-  void detourByTrianglesAbove() {
-    up_detour_.assign(upper_.size(), kUnreachable);
-    down_detour_ = up_detour_;
-    for (auto middle = static_cast<std::uint32_t>(graph_.size()); middle-- > 0;) {
-      visitTriangles(middle, [this](std::uint32_t to_middle, std::uint32_t to_top, std::uint32_t onward) {
-        const std::int32_t up = std::min(up_[onward], up_detour_[onward]);
-        const std::int32_t down = std::min(down_[onward], down_detour_[onward]);
-        // Of two arcs between whose ends nothing is to be driven one has to stay.
-        if (up > 0) lower(up_[to_middle] + up, &up_detour_[to_top]);
-        if (down > 0) lower(up_[to_top] + down, &up_detour_[to_middle]);
-        if (down > 0) lower(down_[to_middle] + down, &down_detour_[to_top]);
-        if (up > 0) lower(down_[to_top] + up, &down_detour_[to_middle]);
-      });
-    }
-  }
-
-  void keepNeeded(const std::vector<std::int32_t>& weights, const std::vector<std::int32_t>& detours,
-                  std::vector<std::uint32_t>* first, std::vector<Arc>* arcs) const {
-    first->push_back(0);
-    for (std::uint32_t low = 0; low < graph_.size(); ++low) {
-      for (std::uint32_t pair = first_[low]; pair < first_[low + 1]; ++pair) {
-        if (weights[pair] < detours[pair]) arcs->push_back({upper_[pair], weights[pair]});
+  /// Keeps the arcs of a supernode that are shorter than any way over a node above their lower end; then their weights
+  /// become those of the shortest ways.
+  void dropDetours(const Supernode& own) {
+    const std::size_t width = own.width();
+    detour_up_.assign(own.count * width, kUnreachable);
+    detour_down_.assign(own.count * width, kUnreachable);
+    columns_.visit(supernodes_, own,
+                   [&](std::uint32_t node, const Supernode& upper, std::size_t i, const auto& columns) {
+                     const std::size_t rest = own.above.size() - i - 1, row = upper.row(node);
+                     way_up_.resize(rest);
+                     way_down_.resize(rest);
+                     for (std::size_t k = 0; k < rest; ++k) {
+                       way_up_[k] = up_[row + columns[i + 1 + k]];
+                       way_down_[k] = down_[row + columns[i + 1 + k]];
+                     }
+                     leaveNothingAtNoCost(&way_up_, &way_down_);
+                     for (std::size_t k = 0; k < own.count; ++k)
+                       lookForDetours(own, k, own.count + i, way_up_, way_down_);
+                   });
+    for (std::size_t k = own.count; k-- > 0;) {
+      for (std::size_t over = k + 1; over < own.count; ++over) {
+        const auto row = static_cast<std::ptrdiff_t>(own.rows + over * width + over + 1);
+        const auto end = row + static_cast<std::ptrdiff_t>(width - over - 1);
+        way_up_.assign(up_.begin() + row, up_.begin() + end);
+        way_down_.assign(down_.begin() + row, down_.begin() + end);
+        leaveNothingAtNoCost(&way_up_, &way_down_);
+        lookForDetours(own, k, over, way_up_, way_down_);
       }
-      first->push_back(static_cast<std::uint32_t>(arcs->size()));
+      keepNeeded(own, k, detour_up_, &up_, &kept_up_);
+      keepNeeded(own, k, detour_down_, &down_, &kept_down_);
     }
-    arcs->shrink_to_fit();
   }
 
-  /// A pair that leads up from some node, and the end of all that do.
-  struct LowerPair {
-    std::uint32_t pair, end;
-  };
+  /// Of two arcs between whose ends nothing is to be driven one has to stay: neither is a detour of the other.
+  static void leaveNothingAtNoCost(Weights* up, Weights* down) {
+    for (Weights* weights : {up, down}) {
+      for (Weight& weight : *weights) weight = weight > 0 ? weight : kUnreachable;
+    }
+  }
+
+  /// For the arcs of node `k` of `own`: over the node of column `over`, from which `up` and `down` lead to and from
+  /// those of the columns after it.
+  void lookForDetours(const Supernode& own, std::size_t k, std::size_t over, const Weights& up, const Weights& down) {
+    const std::size_t begin = k * own.width() + over;
+    const Weight *own_up = &up_[own.rows + begin], *own_down = &down_[own.rows + begin];
+    lowerAll(*own_up, up.data(), up.size(), &detour_up_[begin] + 1);
+    lowerAll(*own_down, down.data(), down.size(), &detour_down_[begin] + 1);
+    lower(leastSum(own_up + 1, down.data(), down.size()), &detour_up_[begin]);
+    lower(leastSum(own_down + 1, up.data(), up.size()), &detour_down_[begin]);
+  }
+
+  void keepNeeded(const Supernode& own, std::size_t k, const Weights& detours, Weights* weights,
+                  std::vector<std::vector<Arc>>* kept) {
+    std::vector<Arc> arcs;
+    for (std::size_t column = k + 1; column < own.width(); ++column) {
+      Weight& weight = (*weights)[own.rows + k * own.width() + column];
+      const Weight detour = detours[k * own.width() + column];
+      if (weight < detour) arcs.push_back({own.nodeAt(column), weight});
+      lower(detour, &weight);
+    }
+    kept->push_back(std::move(arcs));
+  }
+
+  /// The arcs were kept from the highest node down.
+  void store() {
+    for (std::uint32_t node = 0; node < supernodes_.size(); ++node) {
+      result_.parent_.push_back(supernodes_.parent(node, kNoParent));
+    }
+    for (auto [kept, first, arcs] : {std::tuple(&kept_up_, &result_.first_up_, &result_.up_),
+                                     std::tuple(&kept_down_, &result_.first_down_, &result_.down_)}) {
+      std::size_t count = 0;
+      for (const std::vector<Arc>& own : *kept) count += own.size();
+      arcs->reserve(count);
+      first->push_back(0);
+      for (auto own = kept->rbegin(); own != kept->rend(); ++own) {
+        arcs->insert(arcs->end(), own->begin(), own->end());
+        first->push_back(static_cast<std::uint32_t>(arcs->size()));
+      }
+    }
+  }
 
   const RelaxedGraph& graph_;
   ContractionHierarchy& result_;
-  std::vector<std::uint32_t> first_, upper_;
-  std::vector<std::int32_t> up_, down_, up_detour_, down_detour_;
-  std::vector<std::uint32_t> first_lower_;
-  std::vector<LowerPair> lower_;
-  std::vector<std::uint32_t> pair_to_;
+  const Supernodes supernodes_;
+  Weights up_, down_;
+  std::vector<std::vector<Arc>> kept_up_, kept_down_;
+  ColumnsAbove columns_;
+  Weights way_up_, way_down_, detour_up_, detour_down_;
 };
 
-ContractionHierarchy::ContractionHierarchy(const RelaxedGraph& graph) { Builder(graph, this).build(); }
+ContractionHierarchy::ContractionHierarchy(const RelaxedGraph& graph) : rank_(graph.size()) {
+  const std::vector<LaneIndex> order = eliminationOrder(graph);
+  for (std::uint32_t rank = 0; rank < order.size(); ++rank) rank_[order[rank]] = rank;
+  Builder(graph, this).build();
+}
 
 }  // namespace external_command
