@@ -9,25 +9,17 @@ namespace external_command {
 namespace {
 
 constexpr std::int32_t kUnreachable = RelaxedGraph::kUnreachable;
-constexpr std::uint32_t kNone = ContractionHierarchy::kNoParent;
 constexpr double kMaxPrice = 10000.0;  // so that sums stay in range; a bound may always be lower [m]
 
 }  // namespace
 
+/// By rank. Distances lie close together, as those of many nodes are looked up for each node.
 struct GoalDistances::Workspace {
-  struct Node {
-    std::uint64_t leg = 0;
-    std::int32_t distance = kUnreachable;  // so far: over nodes below alone
-    bool is_final = false;
-  };
+  bool isKnown(std::uint32_t rank) const { return leg_known[rank] == leg; }
+  bool isFinal(std::uint32_t rank) const { return leg_final[rank] == leg; }
 
-  Node& nodeOf(std::uint32_t rank) {
-    Node& node = nodes[rank];
-    if (node.leg != leg) node = {leg, kUnreachable, false};
-    return node;
-  }
-
-  std::vector<Node> nodes;
+  std::vector<std::int32_t> distances;              // where not final, over nodes below alone
+  std::vector<std::uint64_t> leg_known, leg_final;  // the last leg in which the distance was so
   std::vector<std::uint32_t> path;
   std::uint64_t leg = 0;
 };
@@ -37,7 +29,10 @@ GoalDistances::GoalDistances(const LaneGraph& graph, const RouteIndex& index)
         thread_local Workspace workspace;
         return workspace;
       }()) {
-  if (work_.nodes.size() < graph.size()) work_.nodes.resize(graph.size());
+  if (work_.distances.size() >= graph.size()) return;
+  work_.distances.resize(graph.size());
+  work_.leg_known.resize(graph.size());
+  work_.leg_final.resize(graph.size());
 }
 
 /// From `s` to the end of the lane [m].
@@ -50,37 +45,47 @@ void GoalDistances::setTargets(const std::vector<LanePoint>& targets) {
   for (const LanePoint& target : targets) climb(target);
 }
 
+/// From here to the root, without the nodes from which `is_there` is true on.
+template <class IsThere>
+const std::vector<std::uint32_t>& GoalDistances::pathUp(std::uint32_t rank, const IsThere& is_there) {
+  work_.path.clear();
+  for (; rank != ContractionHierarchy::kNoParent && !is_there(rank); rank = index_.hierarchy.parent(rank)) {
+    work_.path.push_back(rank);
+  }
+  return work_.path;
+}
+
 /// A target lies before the end of its lane: from there it is a negative way.
 void GoalDistances::climb(const LanePoint& target) {
+  const std::uint32_t first = index_.hierarchy.rank(target.lane);
+  for (const std::uint32_t rank : pathUp(first, [this](std::uint32_t at) { return work_.isKnown(at); })) {
+    work_.distances[rank] = kUnreachable;
+    work_.leg_known[rank] = work_.leg;
+  }
   const double metres = std::min(target.price, kMaxPrice) - countedRest(target.lane, target.s);
-  std::uint32_t rank = index_.hierarchy.rank(target.lane);
-  std::int32_t& distance = work_.nodeOf(rank).distance;
+  std::int32_t& distance = work_.distances[first];
   distance = std::min(distance, static_cast<std::int32_t>(std::floor(metres * RelaxedGraph::kUnitsPerMetre)));
-  for (; rank != kNone; rank = index_.hierarchy.parent(rank)) {
-    const std::int32_t so_far = work_.nodeOf(rank).distance;
+  for (const std::uint32_t rank : pathUp(first, [](std::uint32_t) { return false; })) {
+    const std::int32_t so_far = work_.distances[rank];
     if (so_far == kUnreachable) continue;
     for (const ContractionHierarchy::Arc& arc : index_.hierarchy.arcsDown(rank)) {
-      std::int32_t& above = work_.nodeOf(arc.upper).distance;
+      std::int32_t& above = work_.distances[arc.upper];
       above = std::min(above, so_far + arc.weight);
     }
   }
 }
 
 std::int32_t GoalDistances::fromEnd(std::uint32_t rank) {
-  std::vector<std::uint32_t>& path = work_.path;
-  for (path.clear(); rank != kNone && !work_.nodeOf(rank).is_final; rank = index_.hierarchy.parent(rank)) {
-    path.push_back(rank);
-  }
-  std::int32_t distance = rank == kNone ? kUnreachable : work_.nodes[rank].distance;
+  const auto& path = pathUp(rank, [this](std::uint32_t at) { return work_.isFinal(at); });
   for (auto node = path.rbegin(); node != path.rend(); ++node) {
-    distance = work_.nodes[*node].distance;
+    std::int32_t distance = work_.isKnown(*node) ? work_.distances[*node] : kUnreachable;
     for (const ContractionHierarchy::Arc& arc : index_.hierarchy.arcsUp(*node)) {
-      distance = std::min(distance, work_.nodes[arc.upper].distance + arc.weight);
+      distance = std::min(distance, work_.distances[arc.upper] + arc.weight);
     }
-    work_.nodes[*node].distance = distance;
-    work_.nodes[*node].is_final = true;
+    work_.distances[*node] = distance;
+    work_.leg_known[*node] = work_.leg_final[*node] = work_.leg;
   }
-  return distance;
+  return work_.distances[rank];
 }
 
 double GoalDistances::from(LaneIndex lane, double s) {

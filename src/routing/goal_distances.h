@@ -26,6 +26,8 @@ class GoalDistances {
   struct Workspace;
 
   double countedRest(LaneIndex lane, double s) const;
+  template <class IsThere>
+  const std::vector<std::uint32_t>& pathUp(std::uint32_t rank, const IsThere& is_there);
   void climb(const LanePoint& target);
   std::int32_t fromEnd(std::uint32_t rank);
 
