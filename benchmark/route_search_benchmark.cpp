@@ -23,6 +23,7 @@ namespace external_command {
 namespace {
 
 constexpr double kSameCost = 0.001;  // [m]
+constexpr double kNoRoute = -1.0;
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -57,16 +58,19 @@ class Measurement {
     const double index_built = now();
     const double after = residentMegabytes();
     const int queries = std::clamp(static_cast<int>(200000000 / lanes_.size()), 200, 5000);
-    for (int i = 0; i < queries; ++i) query(graph, index);
+    std::vector<RouteQuery> asked;
+    for (int i = 0; i < queries; ++i) asked.push_back({{anyPlace()}, {}, {anyPlace()}, {}});
+    const Answers answers = answer(graph, &index, asked), plain = answer(graph, nullptr, asked);
     std::ostringstream out;
     out << "{\"map\": \"" << name << "\", \"lanes\": " << lanes_.size() << ", \"graph_s\": " << graph_built - begin
         << ", \"index_s\": " << index_built - graph_built << ", \"index_mb\": " << after - before
         << ", \"index_arcs\": " << index.hierarchy.arcs() << ", \"queries\": " << queries
-        << ", \"without_route\": " << without_route_ << ", \"route_m_median\": " << quantile(distances_, 0.5)
-        << ", \"route_us_median\": " << 1e6 * quantile(times_, 0.5)
-        << ", \"route_us_p99\": " << 1e6 * quantile(times_, 0.99)
-        << ", \"plain_us_median\": " << 1e6 * quantile(plain_times_, 0.5)
-        << ", \"plain_us_p99\": " << 1e6 * quantile(plain_times_, 0.99) << ", \"other_costs\": " << other_costs_ << "}";
+        << ", \"without_route\": " << std::count(plain.costs.begin(), plain.costs.end(), kNoRoute)
+        << ", \"route_us_median\": " << 1e6 * quantile(answers.times, 0.5)
+        << ", \"route_us_p99\": " << 1e6 * quantile(answers.times, 0.99)
+        << ", \"plain_us_median\": " << 1e6 * quantile(plain.times, 0.5)
+        << ", \"plain_us_p99\": " << 1e6 * quantile(plain.times, 0.99)
+        << ", \"other_costs\": " << differences(answers.costs, plain.costs) << "}";
     return out.str();
   }
 
@@ -76,37 +80,34 @@ class Measurement {
     return {lane, std::uniform_real_distribution<double>(0.0, map_->lane(lane).length())(random_)};
   }
 
-  void query(const LaneGraph& graph, const RouteIndex& index) {
-    const RouteQuery query{{anyPlace()}, {}, {anyPlace()}, {}};
-    std::vector<double> plain_times, times;
-    const double plain = cost(graph, nullptr, query, &plain_times);
-    const double cost_by_index = cost(graph, &index, query, &times);
-    if (std::abs(plain - cost_by_index) > kSameCost) ++other_costs_;
-    if (plain < 0.0) {
-      ++without_route_;
-      return;
+  struct Answers {
+    std::vector<double> costs;  // kNoRoute where there is none [m]
+    std::vector<double> times;  // of those with a route [s]
+  };
+
+  Answers answer(const LaneGraph& graph, const RouteIndex* index, const std::vector<RouteQuery>& queries) const {
+    Answers answers;
+    for (const RouteQuery& query : queries) {
+      const BlockedLanes blocked(query.black_list);
+      const double begin = now();
+      const SearchResult found =
+          searchRoute(graph, index, params_, ChangeRule::kWithRoom, query, blocked, CancelToken());
+      answers.costs.push_back(found.labels.empty() ? kNoRoute : buildRoute(graph, blocked, found.labels).cost);
+      if (!found.labels.empty()) answers.times.push_back(now() - begin);
     }
-    plain_times_.push_back(plain_times.front());
-    times_.push_back(times.front());
-    distances_.push_back(plain);
+    return answers;
   }
 
-  double cost(const LaneGraph& graph, const RouteIndex* index, const RouteQuery& query, std::vector<double>* times) {
-    const BlockedLanes blocked(query.black_list);
-    const double begin = now();
-    const SearchResult found = searchRoute(graph, index, params_, ChangeRule::kWithRoom, query, blocked, CancelToken());
-    if (found.labels.empty()) return -1.0;
-    const Route route = buildRoute(graph, blocked, found.labels);
-    times->push_back(now() - begin);
-    return route.cost;
+  static int differences(const std::vector<double>& a, const std::vector<double>& b) {
+    int count = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) count += std::abs(a[i] - b[i]) > kSameCost;
+    return count;
   }
 
   std::shared_ptr<const HdMap> map_;
   const RouterParams params_;
   std::vector<LaneIndex> lanes_;
   std::mt19937 random_{1};
-  int without_route_ = 0, other_costs_ = 0;
-  std::vector<double> times_, plain_times_, distances_;
 };
 
 int run(int argc, char** argv) {
