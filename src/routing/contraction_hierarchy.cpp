@@ -104,8 +104,8 @@ class ContractionHierarchy::Builder {
       const Weight *up = &up_[own.rows + below * width], *down = &down_[own.rows + below * width];
       for (std::size_t i = below + 1; i < own.count; ++i) {
         const std::size_t row = own.rows + i * width;
-        lowerAll(down[i], up + i + 1, width - i - 1, &up_[row + i + 1]);
-        lowerAll(up[i], down + i + 1, width - i - 1, &down_[row + i + 1]);
+        lowerAll(down[i], up + i + 1, width - i - 1, up_.data() + row + i + 1);
+        lowerAll(up[i], down + i + 1, width - i - 1, down_.data() + row + i + 1);
       }
     }
   }
