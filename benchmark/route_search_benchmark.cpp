@@ -10,14 +10,13 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
-#include <iostream>
 #include <random>
 #include <sstream>
 
 #include "../src/routing/route_builder.h"
 #include "../src/routing/route_search.h"
-#include "external_command/map/map_reader.h"
-#include "grid_city.h"
+#include "measure_maps.h"
+#include "statistics.h"
 
 namespace external_command {
 namespace {
@@ -26,12 +25,6 @@ constexpr double kSameCost = 0.001;  // [m]
 constexpr double kNoRoute = -1.0;
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
 
 /// Resident memory of this process [MB].
 double residentMegabytes() {
@@ -66,10 +59,10 @@ class Measurement {
         << ", \"index_s\": " << index_built - graph_built << ", \"index_mb\": " << after - before
         << ", \"index_arcs\": " << index.hierarchy.arcs() << ", \"queries\": " << queries
         << ", \"without_route\": " << std::count(plain.costs.begin(), plain.costs.end(), kNoRoute)
-        << ", \"route_us_median\": " << 1e6 * quantile(answers.times, 0.5)
-        << ", \"route_us_p99\": " << 1e6 * quantile(answers.times, 0.99)
-        << ", \"plain_us_median\": " << 1e6 * quantile(plain.times, 0.5)
-        << ", \"plain_us_p99\": " << 1e6 * quantile(plain.times, 0.99)
+        << ", \"route_us_median\": " << 1e6 * benchmark::quantile(answers.times, 0.5)
+        << ", \"route_us_p99\": " << 1e6 * benchmark::quantile(answers.times, 0.99)
+        << ", \"plain_us_median\": " << 1e6 * benchmark::quantile(plain.times, 0.5)
+        << ", \"plain_us_p99\": " << 1e6 * benchmark::quantile(plain.times, 0.99)
         << ", \"other_costs\": " << differences(answers.costs, plain.costs) << "}";
     return out.str();
   }
@@ -110,33 +103,12 @@ class Measurement {
   std::mt19937 random_{1};
 };
 
-int run(int argc, char** argv) {
-  std::string separator = "[";
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    const bool is_city = argument == "--city" && i + 1 < argc;
-    const std::string name = is_city ? std::string("city ") + argv[++i] : argument;
-    const auto map =
-        is_city ? std::make_shared<const HdMap>(gridCity(std::stoi(argv[i])), Point2d::Zero()) : readMap(argument, {});
-    std::cout << separator << Measurement(map).run(name) << std::flush;
-    separator = ",\n ";
-  }
-  std::cout << "]\n";
-  return 0;
-}
-
 }  // namespace
 }  // namespace external_command
 
 int main(int argc, char** argv) {
-  if (argc < 2) {
-    std::cerr << "usage: " << argv[0] << " [--city CROSSINGS_PER_SIDE]... FILE...\n";
-    return 2;
-  }
-  try {
-    return external_command::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << "\n";
-    return 1;
-  }
+  using namespace external_command;  // NOLINT(build/namespaces)
+  return benchmark::measureMaps(argc, argv, [](std::shared_ptr<const HdMap> map, const std::string& name) {
+    return Measurement(std::move(map)).run(name);
+  });
 }

@@ -6,15 +6,14 @@
 // array.
 #include <algorithm>
 #include <chrono>
-#include <iostream>
 #include <random>
 #include <sstream>
 
-#include "external_command/map/map_reader.h"
 #include "external_command/routing/lane_way_tool.h"
 #include "external_command/routing/reference_path.h"
-#include "grid_city.h"
+#include "measure_maps.h"
 #include "path_quality.h"
+#include "statistics.h"
 
 namespace external_command {
 namespace {
@@ -24,13 +23,6 @@ constexpr double kBeside = 1.75;  // [m]
 constexpr std::size_t kPathsLookedAt = 400;
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
-double quantile(std::vector<double>* values, double share) {
-  if (values->empty()) return 0.0;
-  const auto at = values->begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values->size() - 1));
-  std::nth_element(values->begin(), at, values->end());
-  return *at;
-}
 
 class Measurement {
  public:
@@ -49,22 +41,22 @@ class Measurement {
     std::ostringstream out;
     out << "{\"map\": \"" << name << "\", \"lanes\": " << lanes_.size() << ", \"router_build_s\": " << build
         << ", \"queries\": " << kQueries << ", \"without_route\": " << kQueries - route_times_.size()
-        << ", \"route_us_median\": " << 1e6 * quantile(&route_times_, 0.5)
-        << ", \"route_us_p99\": " << 1e6 * quantile(&route_times_, 0.99)
-        << ", \"route_m_median\": " << quantile(&distances_, 0.5)
+        << ", \"route_us_median\": " << 1e6 * benchmark::quantile(route_times_, 0.5)
+        << ", \"route_us_p99\": " << 1e6 * benchmark::quantile(route_times_, 0.99)
+        << ", \"route_m_median\": " << benchmark::quantile(distances_, 0.5)
         << ", \"changes_per_km\": " << 1000.0 * changes_ / std::max(metres_, 1.0)
         << ", \"candidates_mean\": " << candidates_ / (2.0 * kQueries)
-        << ", \"beside_lanes_us_median\": " << 1e6 * quantile(&beside_times_, 0.5)
-        << ", \"beside_lanes_us_p99\": " << 1e6 * quantile(&beside_times_, 0.99)
-        << ", \"path_us_per_km_median\": " << 1e6 * quantile(&path_times_per_km_, 0.5)
-        << ", \"path_us_per_km_p99\": " << 1e6 * quantile(&path_times_per_km_, 0.99)
+        << ", \"beside_lanes_us_median\": " << 1e6 * benchmark::quantile(beside_times_, 0.5)
+        << ", \"beside_lanes_us_p99\": " << 1e6 * benchmark::quantile(beside_times_, 0.99)
+        << ", \"path_us_per_km_median\": " << 1e6 * benchmark::quantile(path_times_per_km_, 0.5)
+        << ", \"path_us_per_km_p99\": " << 1e6 * benchmark::quantile(path_times_per_km_, 0.99)
         << ", \"paths_looked_at\": " << quality_.paths() << ", \"over_curvature_share\": " << quality_.shareOverLimit()
         << ", \"over_curvature_untold_share\": " << quality_.shareUntold()
         << ", \"worst_curvature\": " << quality_.largestKappa() << ", \"faulty_paths\": " << quality_.faulty()
         << ", \"first_fault\": \"" << quality_.firstFault() << "\""
         << ", \"footprint_out_of_lanes_m\": " << quality_.largestExcess()
         << ", \"axle_out_of_lanes_m\": " << quality_.largestOffset()
-        << ", \"no_route_us_median\": " << 1e6 * quantile(&failure_times_, 0.5) << "}";
+        << ", \"no_route_us_median\": " << 1e6 * benchmark::quantile(failure_times_, 0.5) << "}";
     return out.str();
   }
 
@@ -124,33 +116,12 @@ class Measurement {
   std::vector<double> route_times_, failure_times_, distances_, path_times_per_km_;
 };
 
-int run(int argc, char** argv) {
-  std::string separator = "[";
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    const bool is_city = argument == "--city" && i + 1 < argc;
-    const std::string name = is_city ? std::string("city ") + argv[++i] : argument;
-    const auto map =
-        is_city ? std::make_shared<const HdMap>(gridCity(std::stoi(argv[i])), Point2d::Zero()) : readMap(argument, {});
-    std::cout << separator << Measurement(map).run(name) << std::flush;
-    separator = ",\n ";
-  }
-  std::cout << "]\n";
-  return 0;
-}
-
 }  // namespace
 }  // namespace external_command
 
 int main(int argc, char** argv) {
-  if (argc < 2) {
-    std::cerr << "usage: " << argv[0] << " [--city CROSSINGS_PER_SIDE]... FILE...\n";
-    return 2;
-  }
-  try {
-    return external_command::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << "\n";
-    return 1;
-  }
+  using namespace external_command;  // NOLINT(build/namespaces)
+  return benchmark::measureMaps(argc, argv, [](std::shared_ptr<const HdMap> map, const std::string& name) {
+    return Measurement(std::move(map)).run(name);
+  });
 }

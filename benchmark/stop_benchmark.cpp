@@ -6,7 +6,6 @@
 #include <ros/ros.h>
 #include <sched.h>
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -24,16 +23,13 @@
 #include "external_command/Speed.h"
 #include "external_command/ValetParking.h"
 #include "external_command/ZoneCover.h"
+#include "statistics.h"
 
 namespace {
 
 using namespace external_command;  // NOLINT(build/namespaces): messages only
 
 constexpr double kPause = 0.005;  // between two stops [s]
-
-double quantile(const std::vector<double>& sorted, double share) {
-  return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
-}
 
 /// Where that is allowed: what is timed is then how long the gateway takes, not when this client gets the processor.
 /// Before roscpp starts its threads, which inherit it.
@@ -59,9 +55,9 @@ int probe(int calls, bool is_real_time) {
     times.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
     ros::WallDuration(kPause).sleep();
   }
-  std::sort(times.begin(), times.end());
   std::printf("{\"stops\": %d, \"median_ms\": %.3f, \"p99_ms\": %.3f, \"max_ms\": %.3f, \"real_time_client\": %s}\n",
-              calls, quantile(times, 0.5), quantile(times, 0.99), times.back(), is_real_time ? "true" : "false");
+              calls, benchmark::quantile(times, 0.5), benchmark::quantile(times, 0.99), benchmark::largest(times),
+              is_real_time ? "true" : "false");
   return 0;
 }
 

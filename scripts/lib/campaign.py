@@ -128,15 +128,14 @@ def memory_of(pid, key):
         return 0.0
 
 
-class MemoryWatch:
-    """The most memory that the gateway took while this is entered, beyond what it took at the beginning."""
+class Periodic:
+    """Calls `job` in a thread of its own, every `period` [s], while it is entered."""
 
-    def __init__(self, gateway):
-        self._gateway = gateway
-        self.begin = gateway.rss()
-        self.most = 0.0
+    def __init__(self, period, job):
+        self._period = period
+        self._job = job
         self._end = threading.Event()
-        self._thread = threading.Thread(target=self._look)
+        self._thread = threading.Thread(target=self._run)
 
     def __enter__(self):
         self._thread.start()
@@ -146,9 +145,22 @@ class MemoryWatch:
         self._end.set()
         self._thread.join()
 
+    def _run(self):
+        while not self._end.wait(self._period):
+            self._job()
+
+
+class MemoryWatch(Periodic):
+    """The most memory that the gateway took while this is entered, beyond what it took at the beginning."""
+
+    def __init__(self, gateway):
+        super().__init__(0.1, self._look)
+        self._gateway = gateway
+        self.begin = gateway.rss()
+        self.most = 0.0
+
     def _look(self):
-        while not self._end.wait(0.1):
-            self.most = max(self.most, self._gateway.rss() - self.begin)
+        self.most = max(self.most, self._gateway.rss() - self.begin)
 
 
-__all__ = ["DemoError", "Figures", "Gateway", "MemoryWatch", "NAMESPACE", "memory_of"]
+__all__ = ["DemoError", "Figures", "Gateway", "MemoryWatch", "NAMESPACE", "Periodic", "memory_of"]

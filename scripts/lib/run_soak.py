@@ -7,10 +7,9 @@ is the same as the one before: what the gateway keeps after the first of them it
 import argparse
 import statistics
 import sys
-import threading
 import time
 
-from campaign import DemoError, Figures, Gateway, memory_of
+from campaign import DemoError, Figures, Gateway, Periodic, memory_of
 
 WARM_UP = 10000  # calls
 MOST_GROWTH = 1.048576  # after the warm-up [MB]
@@ -20,33 +19,23 @@ LIGHT_TURNS = 100  # of the commands that plan nothing, in each turn
 COMMAND_STATUS = "/apollo/external_command/command_status"
 
 
-class Vehicle:
+class Vehicle(Periodic):
     """Tells where it is, on a lane of the demo town."""
 
     def __init__(self):
-        self._end = threading.Event()
-        self._thread = threading.Thread(target=self._move)
-
-    def __enter__(self):
-        self._thread.start()
-        return self
-
-    def __exit__(self, *_):
-        self._end.set()
-        self._thread.join()
-
-    def _move(self):
-        import rospy
         import tf2_ros
+        super().__init__(0.05, self._tell)
+        self._broadcaster = tf2_ros.TransformBroadcaster()
+
+    def _tell(self):
+        import rospy
         from geometry_msgs.msg import TransformStamped
-        broadcaster = tf2_ros.TransformBroadcaster()
-        while not self._end.wait(0.05):
-            transform = TransformStamped()
-            transform.header.frame_id, transform.child_frame_id = "map", "base_link"
-            transform.header.stamp = rospy.Time.now()
-            transform.transform.translation.x, transform.transform.translation.y = 90.0, 194.75
-            transform.transform.rotation.w = 1.0
-            broadcaster.sendTransform(transform)
+        transform = TransformStamped()
+        transform.header.frame_id, transform.child_frame_id = "map", "base_link"
+        transform.header.stamp = rospy.Time.now()
+        transform.transform.translation.x, transform.transform.translation.y = 90.0, 194.75
+        transform.transform.rotation.w = 1.0
+        self._broadcaster.sendTransform(transform)
 
 
 class Clients:

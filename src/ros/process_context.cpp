@@ -136,7 +136,8 @@ ProcessContext::ProcessContext(const ros::NodeHandle& nh, const ros::NodeHandle&
     return nh_.createSteadyTimer(options);
   };
   memory_timer_ = every(kMemoryPeriod, housekeeping_, [this] { giveBackMemory(); });
-  silence_timer_ = every(kSilenceCheckPeriod, reports_, [this] { registry_.noteSilence(params_.planner_silence_timeout); });
+  silence_timer_ =
+      every(kSilenceCheckPeriod, reports_, [this] { registry_.noteSilence(params_.planner_silence_timeout); });
   motion_timer_ = every(kMotionPeriod, reports_, [this] { motion_watch_.look(); });
 }
 

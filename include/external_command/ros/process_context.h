@@ -145,8 +145,8 @@ class ProcessContext {
   Display display_;
   LogThrottle odd_reports_{10.0};
   DedicatedLane housekeeping_, reports_;  // after all that their callbacks use, before what is bound to their queues
-  ArrivalNumber last_arrival_ = 0;  ///< giveBackMemory() looked at it
-  bool has_memory_ = false;         ///< that was not given back since
+  ArrivalNumber last_arrival_ = 0;        ///< giveBackMemory() looked at it
+  bool has_memory_ = false;               ///< that was not given back since
   ros::SteadyTimer silence_timer_, motion_timer_, memory_timer_;
 };
 
