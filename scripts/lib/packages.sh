@@ -6,14 +6,18 @@
 EC_DEBIAN_BUILD_PACKAGES=(
   g++ make cmake catkin ros-message-generation ros-message-runtime protobuf-compiler python3-setuptools
   libroscpp-dev libnodelet-dev libnodeletlib-dev pluginlib-dev libtf2-dev libtf2-msgs-dev libtf2-geometry-msgs-dev
-  libgeometry-msgs-dev libnav-msgs-dev libstd-msgs-dev libvisualization-msgs-dev
-  ros-geometry-msgs ros-nav-msgs ros-std-msgs ros-visualization-msgs
+  libactionlib-dev libdiagnostic-updater-dev
+  libactionlib-msgs-dev libdiagnostic-msgs-dev libgeometry-msgs-dev libmove-base-msgs-dev libnav-msgs-dev
+  libstd-msgs-dev libvisualization-msgs-dev
+  ros-actionlib-msgs ros-diagnostic-msgs ros-geometry-msgs ros-move-base-msgs ros-nav-msgs ros-std-msgs
+  ros-visualization-msgs
   libboost-dev libeigen3-dev libmetis-dev libompl-dev libprotobuf-dev libtinyxml2-dev
 )
 # Beside the libraries; the package of scripts/package depends on these.
 EC_DEBIAN_RUN_PACKAGES=(
   libnodeletlib-tools rosbash
   python3-genpy python3-rosbag python3-rosgraph python3-roslaunch python3-roslib python3-rospy python3-rosservice
+  python3-actionlib python3-actionlib-msgs python3-diagnostic-msgs python3-move-base-msgs
   python3-tf2-ros python3-geometry-msgs python3-nav-msgs python3-std-msgs python3-visualization-msgs
   python3-protobuf
   netbase  # makes /etc/hosts where there is none, as in a bare chroot: ROS needs the name localhost
@@ -30,8 +34,9 @@ EC_DEBIAN_PICTURE_PACKAGES=(xvfb x11-utils imagemagick libgl1-mesa-dri)
 EC_NOETIC_BUILD_PACKAGES=(
   g++ make cmake protobuf-compiler python3-setuptools libboost-dev libeigen3-dev libmetis-dev
   libprotobuf-dev libtinyxml2-dev
-  ros-noetic-catkin ros-noetic-geometry-msgs ros-noetic-message-generation ros-noetic-nav-msgs ros-noetic-nodelet
-  ros-noetic-ompl ros-noetic-pluginlib ros-noetic-roscpp ros-noetic-std-msgs ros-noetic-tf2
+  ros-noetic-actionlib ros-noetic-actionlib-msgs ros-noetic-catkin ros-noetic-diagnostic-msgs
+  ros-noetic-diagnostic-updater ros-noetic-geometry-msgs ros-noetic-message-generation ros-noetic-move-base-msgs
+  ros-noetic-nav-msgs ros-noetic-nodelet ros-noetic-ompl ros-noetic-pluginlib ros-noetic-roscpp ros-noetic-std-msgs ros-noetic-tf2
   ros-noetic-tf2-geometry-msgs ros-noetic-tf2-msgs ros-noetic-visualization-msgs
 )
 EC_NOETIC_RUN_PACKAGES=(
