@@ -62,6 +62,7 @@ class SimulatedVehicleNode:
                                          bicycle.VehicleState(settings.x, settings.y, settings.heading))
         self._chassis = SimulatedChassis(read_parameters(ChassisSettings))
         self._seen = None  # (id, stamp) of the last planning command
+        self._motion_stamp = rospy.Time()  # of the last motion command
         self._last_stop = None  # the last pad that stopped, None once a START let the vehicle go on
         self._shown_scenario = None
         self._shown_mode = None
@@ -122,6 +123,8 @@ class SimulatedVehicleNode:
         if identity == self._seen and not command.header.stamp.is_zero():
             return
         self._seen = identity
+        if command.is_motion_command:
+            self._motion_stamp = command.header.stamp
         age = (self._started - command.header.stamp).to_sec()
         if not command.header.stamp.is_zero() and age > self._settings.max_command_age:
             text = ("the command was sent %.1f s before this vehicle started; the limit is %.1f s (~max_command_age): "
@@ -134,6 +137,8 @@ class SimulatedVehicleNode:
 
     def _on_planning_pad(self, pad):
         if pad.action in (PlanningPad.STOP, PlanningPad.CLEAR_PLANNING):
+            if not pad.header.stamp.is_zero() and pad.header.stamp < self._motion_stamp <= rospy.Time.now():
+                return  # it is about an earlier motion; topics are not in step
             self._last_stop = pad
         elif pad.action == PlanningPad.RESUME_CRUISE:
             self._last_stop = None

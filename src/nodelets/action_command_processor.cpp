@@ -49,9 +49,11 @@ ActionCommandProcessor::~ActionCommandProcessor() {
 void ActionCommandProcessor::start() {
   ServiceCommandProcessor<Action>::start();
   readParameters();
+  std::vector<ros::Publisher> planning_pads;
   for (const std::string& topic : outputTopics("planning/pad")) {
-    planning_pads_.push_back(context().advertise<PlanningPad>(topic, false));
+    planning_pads.push_back(context().advertise<PlanningPad>(topic, false));
   }
+  context().planningPads().use(planning_pads);
   std::string control_pad = "control/pad";
   parameters().readName("control_pad_name", &control_pad);
   control_pad_ = context().advertise<ControlPad>(control_pad, false);
@@ -130,20 +132,22 @@ CommandStatus ActionCommandProcessor::execute(const ActionCommand& command, cons
 
 CommandStatus ActionCommandProcessor::sendAndWatch(const ActionCommand& command, const AdmittedCommand& admitted) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (command.command != ActionCommand::STOP) context().registry().requireRunning(admitted);
   record(pending_->add(admitted, command.command, now()));
   if (command.command == ActionCommand::STOP) {
-    context().gate().stop(true, [this] { sendToPlanning(PlanningPad::STOP); });
+    context().gate().stop(true, [this] { context().planningPads().send(PlanningPad::STOP); });
   } else if (command.command == ActionCommand::VIN_REQ) {
     sendToControl(ControlPad::VIN_REQ);
   } else {
-    sendToPlanning(kPlanningPads.at(command.command));
+    context().planningPads().send(kPlanningPads.at(command.command));
   }
   if (command.command == ActionCommand::START) context().showMotionAgain();
   return makeStatus(admitted.id, CommandStatus::RUNNING, ErrorCode::kOk, nameOfAction(command.command) + " sent");
 }
 
 CommandStatus ActionCommandProcessor::clearPlanning(const AdmittedCommand& admitted) {
-  const auto cleared = context().gate().stop(true, [this] { sendToPlanning(PlanningPad::CLEAR_PLANNING); });
+  const auto cleared =
+      context().gate().stop(true, [this] { context().planningPads().send(PlanningPad::CLEAR_PLANNING); });
   if (cleared) {
     context().registry().update(
         {cleared->command.serial, makeStatus(cleared->command.id, CommandStatus::ERROR, ErrorCode::kCancelled,
@@ -155,7 +159,10 @@ CommandStatus ActionCommandProcessor::clearPlanning(const AdmittedCommand& admit
 CommandStatus ActionCommandProcessor::switchMode(const AdmittedCommand& admitted, ModeSwitch::Target target) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const bool to_manual = target == ModeSwitch::Target::kManual;
-  if (!to_manual) requireChassis();
+  if (!to_manual) {
+    context().registry().requireRunning(admitted);
+    requireChassis();
+  }
   if (switch_) {
     context().registry().update(
         {switch_->command.serial, makeStatus(switch_->command.id, CommandStatus::ERROR, ErrorCode::kSuperseded,
@@ -229,24 +236,23 @@ void ActionCommandProcessor::onChassis(const Chassis& chassis) {
   }
   reported_mode_ = ReportedMode{chassis.driving_mode, now() - std::max(0.0, age)};
   record(pending_->onChassis(chassis));
-  if (switch_) context().registry().update(advanceSwitch());
+  goOnSwitching();
 }
 
 void ActionCommandProcessor::onTick() {
   const std::lock_guard<std::mutex> lock(mutex_);
+  pending_->keepWhere([this](CommandSerial serial) { return context().registry().isRunning(serial); });
   record(pending_->onTime(now()));
+  goOnSwitching();
+}
+
+void ActionCommandProcessor::goOnSwitching() {
+  if (switch_ && !context().registry().isRunning(switch_->command.serial)) switch_.reset();  // it was cancelled
   if (switch_) context().registry().update(advanceSwitch());
 }
 
 void ActionCommandProcessor::record(const PendingActions::Changes& changes) {
   for (const StatusChange& change : changes) context().registry().update(change);
-}
-
-void ActionCommandProcessor::sendToPlanning(std::uint8_t pad) const {
-  PlanningPad message;
-  message.header.stamp = ros::Time::now();
-  message.action = pad;
-  for (const ros::Publisher& publisher : planning_pads_) publisher.publish(message);
 }
 
 void ActionCommandProcessor::sendToControl(std::uint8_t pad) const {

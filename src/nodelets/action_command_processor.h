@@ -48,6 +48,9 @@ class ActionCommandProcessor : public ServiceCommandProcessor<Action> {
   /// Carries the running mode switch one step on; its status.
   StatusChange advanceSwitch();
 
+  /// The same, and tells it, where a switch is running.
+  void goOnSwitching();
+
   /// The last report of the chassis that is not too old.
   std::optional<ReportedMode> freshMode() const;
 
@@ -58,12 +61,10 @@ class ActionCommandProcessor : public ServiceCommandProcessor<Action> {
   void onTick();
   void record(const PendingActions::Changes& changes);
 
-  void sendToPlanning(std::uint8_t pad) const;
   void sendToControl(std::uint8_t pad) const;
 
   ModeSwitchParams mode_switch_params_;
   double max_chassis_age_ = 1.0;  ///< [s]
-  std::vector<ros::Publisher> planning_pads_;
   ros::Publisher control_pad_;
 
   std::mutex mutex_;  ///< guards what follows; held for decisions and sending, never while waiting

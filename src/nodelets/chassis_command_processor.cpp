@@ -80,6 +80,7 @@ void ChassisCommandProcessor::subscribe() {
   chassis_subscriber_ = subscribeBounded<Chassis>(nh, topic, 10, on_chassis, context().params().requests);
   timer_ = nh.createSteadyTimer(ros::WallDuration(kTick), [this](const ros::SteadyTimerEvent&) {
     const std::lock_guard<std::mutex> lock(mutex_);
+    pending_->keepWhere([this](CommandSerial serial) { return context().registry().isRunning(serial); });
     record(pending_->onTime(now()));
   });
 }
@@ -93,6 +94,7 @@ void ChassisCommandProcessor::check(const ChassisCommand& command) const {
 CommandStatus ChassisCommandProcessor::execute(const ChassisCommand& command, const AdmittedCommand& admitted,
                                                Response* /*response*/) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  context().registry().requireRunning(admitted);
   const bool changes_signals = commandsAny(command.basic_signal);
   if (changes_signals) record(pending_->add(admitted, command.basic_signal, now()));
   for (const ros::Publisher& publisher : publishers_) publisher.publish(command);

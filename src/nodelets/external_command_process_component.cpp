@@ -10,9 +10,7 @@
 #include <set>
 
 #include "external_command/core/text.h"
-#include "external_command/ros/bounded_service.h"
 #include "external_command/ros/parameter_check.h"
-#include "external_command/ros/status.h"
 
 namespace external_command {
 
@@ -69,10 +67,7 @@ std::string whyNotLoaded(const std::string& type) {
 
 ExternalCommandProcessComponent::ExternalCommandProcessComponent() : loader_(false) {}
 
-ExternalCommandProcessComponent::~ExternalCommandProcessComponent() {
-  status_server_.shutdown();
-  status_lane_.reset();  // joins
-}
+ExternalCommandProcessComponent::~ExternalCommandProcessComponent() = default;
 
 void ExternalCommandProcessComponent::start() {
   noteKnownParameter(parameters().nameOf("num_worker_threads"));  // nodelet's own
@@ -90,29 +85,7 @@ void ExternalCommandProcessComponent::start() {
 }
 
 void ExternalCommandProcessComponent::open() {
-  std::string service = "external_command/command_status";
-  parameters().readName("command_status_service_name", &service);
-  status_lane_ = std::make_unique<DedicatedLane>(LaneOptions{"the lane of statuses"});
-  ros::NodeHandle nh(getNodeHandle());
-  nh.setCallbackQueue(status_lane_->queue());
-  BoundedServiceCallbacks<GetCommandStatus> callbacks;
-  callbacks.answer = [this](const GetCommandStatus::Request& request, const MessageSize&, const ros::M_string&) {
-    GetCommandStatus::Response response;
-    response.status = context().registry().find(request.command_id);
-    return response;
-  };
-  callbacks.refuse = [](const ros::M_string&) {
-    GetCommandStatus::Response response;
-    response.status = statusFrom(std::current_exception(), 0);
-    return response;
-  };
-  ros::AdvertiseServiceOptions options =
-      boundedService<GetCommandStatus>(service, std::move(callbacks), context().params().requests);
-  status_server_ = nh.advertiseService(options);
-  if (!status_server_) {
-    throw InternalError(text("service ", nh.resolveName(service),
-                             " is advertised by this process already; is the component loaded twice?"));
-  }
+  services_ = std::make_unique<CommandServices>(getNodeHandle(), parameters(), contextPtr());
   tellWhatIsServed();
 }
 

@@ -2,13 +2,12 @@
 #pragma once
 
 #include <nodelet/loader.h>
-#include <ros/service_server.h>
 
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "external_command/GetCommandStatus.h"
+#include "command_services.h"
 #include "external_command/ros/command_processor.h"
 
 namespace external_command {
@@ -32,8 +31,7 @@ class ExternalCommandProcessComponent : public CommandProcessor {
   std::string load(const std::string& type);
 
   nodelet::Loader loader_;
-  ros::ServiceServer status_server_;
-  std::unique_ptr<DedicatedLane> status_lane_;  // last: joins before the rest goes
+  std::unique_ptr<CommandServices> services_;
 };
 
 }  // namespace external_command

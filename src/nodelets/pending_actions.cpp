@@ -163,6 +163,10 @@ PendingActions::Changes PendingActions::onChassis(const Chassis& chassis) {
   });
 }
 
+void PendingActions::keepWhere(const std::function<bool(CommandSerial)>& is_running) {
+  external_command::keepWhere(is_running, &pending_);
+}
+
 PendingActions::Changes PendingActions::onTime(double now) {
   return endWhere(&pending_, [&](const Pending& pending) -> std::optional<CommandStatus> {
     if (now < pending.deadline) return std::nullopt;

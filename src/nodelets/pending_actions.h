@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -60,6 +61,9 @@ class PendingActions {
   Changes onScenario(const std::string& scenario);
   Changes onChassis(const Chassis& chassis);
   Changes onTime(double now);
+
+  /// Waits no longer for those whose command was ended otherwise: for them `is_running` is false.
+  void keepWhere(const std::function<bool(CommandSerial)>& is_running);
 
  private:
   struct Pending {

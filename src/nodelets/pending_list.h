@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -22,6 +23,13 @@ std::vector<StatusChange> endWhere(std::vector<Pending>* pending, const End& end
     item = status ? pending->erase(item) : item + 1;
   }
   return ended;
+}
+
+/// Drops those whose command has ended another way: `is_running(serial)` is false.
+template <class Pending, class IsRunning>
+void keepWhere(const IsRunning& is_running, std::vector<Pending>* pending) {
+  const auto has_ended = [&](const Pending& item) { return !is_running(item.command.serial); };
+  pending->erase(std::remove_if(pending->begin(), pending->end(), has_ended), pending->end());
 }
 
 /// What is waited for stays bounded, whatever is flooded in.

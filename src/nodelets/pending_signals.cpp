@@ -84,6 +84,10 @@ PendingSignals::Changes PendingSignals::onChassis(const VehicleSignal& reported)
   });
 }
 
+void PendingSignals::keepWhere(const std::function<bool(CommandSerial)>& is_running) {
+  external_command::keepWhere(is_running, &pending_);
+}
+
 PendingSignals::Changes PendingSignals::onTime(double now) {
   return endWhere(&pending_, [&](const Pending& pending) -> std::optional<CommandStatus> {
     if (now < pending.deadline) return std::nullopt;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "external_command/VehicleSignal.h"
@@ -30,6 +31,9 @@ class PendingSignals {
 
   Changes onChassis(const VehicleSignal& reported);
   Changes onTime(double now);
+
+  /// Waits no longer for those whose command was ended otherwise: for them `is_running` is false.
+  void keepWhere(const std::function<bool(CommandSerial)>& is_running);
 
  private:
   struct Pending {

@@ -44,9 +44,11 @@ void CommandGate::requireNewestLocked(const AdmittedCommand& command) const {
 CommandGate::Ticket CommandGate::begin(const AdmittedCommand& command, const CancelSource& planning) {
   const std::lock_guard<std::mutex> lock(mutex_);
   requireNewestLocked(command);
+  planning.token().throwIfCancelled();
   if (newest_.serial != command.serial) planning_.cancel();  // it may begin once more
   planning_ = planning;
   newest_ = command;
+  newest_began_ = ros::Time::now();
   Ticket ticket;
   ticket.command_ = command;
   ticket.planning_ = planning;
@@ -57,6 +59,7 @@ std::shared_ptr<const SentMotion> CommandGate::commit(const Ticket& ticket, std:
                                                       const std::function<void()>& publish) {
   const std::lock_guard<std::mutex> lock(mutex_);
   requireNewestLocked(ticket.command_);
+  ticket.cancelToken().throwIfCancelled();
   publish();
   motion_.swap(motion);
   return motion;
@@ -70,6 +73,15 @@ std::shared_ptr<const SentMotion> CommandGate::stop(bool withdraws, const std::f
   if (publish) publish();
   if (withdraws && motion_ && motion_->topics) motion_->topics->withdraw();
   return motion_;
+}
+
+void CommandGate::cancel(CommandSerial serial, const std::function<bool()>& end,
+                         const std::function<void(const ros::Time& stamp)>& clear) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!end() || !motion_ || motion_->command.serial != serial) return;
+  clear(newest_.serial == serial ? ros::Time::now() : newest_began_);
+  if (motion_->topics) motion_->topics->withdraw();
+  motion_.reset();
 }
 
 void CommandGate::retire(CommandSerial serial) {

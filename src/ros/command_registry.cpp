@@ -147,6 +147,17 @@ bool CommandRegistry::isRunning(CommandSerial serial) const {
   return known != records_.end() && known->second.state != State::kEnded;
 }
 
+void CommandRegistry::requireRunning(const AdmittedCommand& command) const {
+  if (isRunning(command.serial)) return;
+  throw Cancelled(text("command ", command.id, " was cancelled before anything of it was sent"));
+}
+
+std::optional<CommandSerial> CommandRegistry::serialOf(std::int64_t command_id) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto known = serials_.find(command_id);
+  return known == serials_.end() ? std::nullopt : std::optional<CommandSerial>(known->second);
+}
+
 double CommandRegistry::silenceOf(CommandSerial serial) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto known = records_.find(serial);

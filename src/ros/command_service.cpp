@@ -89,12 +89,13 @@ CommandStatus CommandService::admitAndExecute(const Incoming& request,
   }
   if (!admission.note.empty()) status.message += "; " + admission.note;
   status.message = statusMessage(status.message);
-  tell(status);
   if (hasEnded(status)) {
-    registry.update({admission.command.serial, status});
+    const bool was_running = registry.update({admission.command.serial, status});
+    if (!was_running) status = registry.statusOf(admission.command.serial).value_or(status);  // it was cancelled
   } else {
     registry.noteAnswer(admission.command.serial, status.message);
   }
+  tell(status);
   if (asksForAnother(status) && refusal_pace_) refusal_pace_->pauseIfFlooded();
   return status;
 }

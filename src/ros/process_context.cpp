@@ -4,6 +4,7 @@
 #include <malloc.h>
 #include <ros/console.h>
 
+#include "external_command/PlanningPad.h"
 #include "external_command/core/error.h"
 #include "external_command/core/text.h"
 #include "external_command/ros/frame_id.h"
@@ -113,6 +114,7 @@ ProcessContext::ProcessContext(const ros::NodeHandle& nh, const ros::NodeHandle&
       planning_pool_(PlanningPool::acquire(params_.planning)),
       router_(routerOf(params_)),
       vehicle_pose_(params_.map_frame, params_.base_frame, params_.max_pose_age, params_.max_future_stamp),
+      planning_pads_(configuredPads()),
       registry_(
           [this, publisher = advertise<CommandStatus>(params_.status_topic, false)](CommandSerial serial,
                                                                                     const CommandStatus& status) {
@@ -139,6 +141,39 @@ ProcessContext::ProcessContext(const ros::NodeHandle& nh, const ros::NodeHandle&
   silence_timer_ =
       every(kSilenceCheckPeriod, reports_, [this] { registry_.noteSilence(params_.planner_silence_timeout); });
   motion_timer_ = every(kMotionPeriod, reports_, [this] { motion_watch_.look(); });
+}
+
+std::vector<ros::Publisher> ProcessContext::configuredPads() {
+  std::vector<std::string> topics = {"planning/pad"};
+  ParameterReader(ros::NodeHandle(nh_, "action_command_processor")).readNames("output_command_name", &topics);
+  std::vector<ros::Publisher> publishers;
+  for (const std::string& topic : topics) publishers.push_back(advertise<PlanningPad>(topic, false));
+  return publishers;
+}
+
+Cancellation ProcessContext::cancel(CommandSerial serial, const std::string& by) {
+  Cancellation cancellation;
+  const std::optional<CommandStatus> before = registry_.statusOf(serial);
+  if (!before) {
+    cancellation.status = makeStatus(0, CommandStatus::UNKNOWN, ErrorCode::kUnknownId, "the command was forgotten");
+    return cancellation;
+  }
+  const std::int64_t id = before->command_id;
+  const auto end = [&] {
+    plans_in_work_.cancel(serial);
+    cancellation.was_running = registry_.update(
+        {serial, makeStatus(id, CommandStatus::ERROR, ErrorCode::kCancelled, text("cancelled by ", by))});
+    return cancellation.was_running;
+  };
+  gate_.cancel(serial, end, [&](const ros::Time& stamp) { planning_pads_.send(PlanningPad::CLEAR_PLANNING, stamp); });
+  cancellation.status = registry_.statusOf(serial).value_or(*before);
+  return cancellation;
+}
+
+Cancellation ProcessContext::cancelById(std::int64_t command_id, const std::string& by) {
+  const std::optional<CommandSerial> serial = registry_.serialOf(command_id);
+  if (!serial) return {false, registry_.find(command_id)};
+  return cancel(*serial, by);
 }
 
 void ProcessContext::takeReport(CommandStatus report, const std::string& processor) {

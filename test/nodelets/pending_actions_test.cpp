@@ -185,5 +185,13 @@ TEST(ActionNames, AreThoseOfTheMessage) {
   EXPECT_NE(knownActions().find("PULL_OVER (4)"), std::string::npos);
 }
 
+TEST_F(Actions, AreNotWaitedForAnyMoreThatWereEndedOtherwise) {
+  pending_.add(command(1), ActionCommand::CHANGE_LEFT, 0.0);
+  pending_.add(command(2), ActionCommand::FOLLOW, 0.0);
+  pending_.keepWhere([](CommandSerial serial) { return serial == 2; });
+  EXPECT_TRUE(ended(reportFinished(0), 2, CommandStatus::FINISHED));
+  EXPECT_TRUE(pending_.onTime(1000.0).empty());
+}
+
 }  // namespace
 }  // namespace external_command

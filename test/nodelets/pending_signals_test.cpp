@@ -77,5 +77,11 @@ TEST_F(Signals, TellWhetherThereIsAnythingToWaitFor) {
   EXPECT_TRUE(commandsAny(signals(VehicleSignal::TURN_NONE)));
 }
 
+TEST_F(Signals, AreNotWaitedForAnyMoreThatWereEndedOtherwise) {
+  pending_.add(command(1), signals(VehicleSignal::TURN_LEFT), 0.0);
+  pending_.keepWhere([](CommandSerial /*serial*/) { return false; });
+  EXPECT_TRUE(pending_.onTime(1000.0).empty());
+}
+
 }  // namespace
 }  // namespace external_command

@@ -2,12 +2,17 @@
 #include "external_command/ros/command_gate.h"
 
 #include <gtest/gtest.h>
+#include <ros/time.h>
+
+#include <optional>
 
 namespace external_command {
 namespace {
 
 class Gate : public testing::Test {
  protected:
+  Gate() { ros::Time::init(); }
+
   AdmittedCommand arrive(std::int64_t id) { return {++serial_, id, gate_.arrive()}; }
   CommandGate::Ticket begin(std::int64_t id) { return gate_.begin(arrive(id), CancelSource()); }
 
@@ -16,6 +21,14 @@ class Gate : public testing::Test {
     motion->command = ticket.command();
     motion->path = std::make_shared<const Path>();
     return gate_.commit(ticket, motion, [this] { ++published_; });
+  }
+
+  /// Cancels `serial`; the stamp of what the planner is told to clear it, nullopt where it is told nothing.
+  std::optional<ros::Time> cancel(CommandSerial serial, bool is_running = true) {
+    std::optional<ros::Time> cleared;
+    gate_.cancel(
+        serial, [&] { return is_running; }, [&](const ros::Time& stamp) { cleared = stamp; });
+    return cleared;
   }
 
   std::int64_t idUnderWay() const { return gate_.motion() ? gate_.motion()->command.id : 0; }
@@ -102,6 +115,46 @@ TEST_F(Gate, RetiresAMotionButNotTheOneAfterIt) {
   EXPECT_EQ(idUnderWay(), 7) << "the second by that id";
   gate_.retire(gate_.motion()->command.serial);
   EXPECT_EQ(gate_.motion(), nullptr);
+}
+
+TEST_F(Gate, ClearsTheMotionUnderWayThatIsCancelled) {
+  send(begin(7));
+  EXPECT_TRUE(cancel(gate_.motion()->command.serial));
+  EXPECT_EQ(gate_.motion(), nullptr);
+}
+
+TEST_F(Gate, ClearsNothingForACommandThatIsNotUnderWay) {
+  send(begin(7));
+  const auto first = gate_.motion()->command.serial;
+  EXPECT_FALSE(cancel(first, false)) << "it has ended already";
+  EXPECT_EQ(idUnderWay(), 7);
+  send(begin(7));
+  EXPECT_FALSE(cancel(first)) << "another took its place, by the same id";
+  EXPECT_EQ(idUnderWay(), 7);
+}
+
+TEST_F(Gate, NeitherBeginsNorSendsACommandWhosePlanningIsCancelled) {
+  const CancelSource planning;
+  const auto ticket = gate_.begin(arrive(7), planning);
+  planning.cancel();
+  EXPECT_THROW(send(ticket), Cancelled);
+  EXPECT_EQ(published_, 0);
+  const auto older = begin(8);
+  EXPECT_THROW(gate_.begin(arrive(9), planning), Cancelled);
+  EXPECT_FALSE(older.cancelToken().isCancelled()) << "what did not begin cancels nothing";
+  EXPECT_NO_THROW(send(older));
+}
+
+TEST_F(Gate, LetsAMotionThatIsPlannedMeanwhileGoOnWhenTheOneUnderWayIsCancelled) {
+  send(begin(7));
+  const auto newer = begin(8);
+  const ros::Time stamp_of_newer = ros::Time::now();  // a motion is stamped when it is planned, before it is sent
+  const auto cleared = cancel(gate_.motion()->command.serial);
+  ASSERT_TRUE(cleared);
+  EXPECT_LE(*cleared, stamp_of_newer) << "a planner would take the newer motion for cleared, too";
+  EXPECT_FALSE(newer.cancelToken().isCancelled());
+  EXPECT_NO_THROW(send(newer));
+  EXPECT_EQ(idUnderWay(), 8);
 }
 
 TEST_F(Gate, KnowsByTheTimeOfDayWhetherItWasStopped) {

@@ -252,5 +252,21 @@ TEST_F(Registry, TellsEveryChangeAndOnlyChanges) {
   EXPECT_EQ(told_[2].status, CommandStatus::FINISHED);
 }
 
+TEST_F(Registry, FindsTheNewestCommandByAnId) {
+  EXPECT_FALSE(registry_.serialOf(7));
+  const CommandSerial first = admit(7);
+  EXPECT_EQ(registry_.serialOf(7), first);
+  end(first);
+  const CommandSerial second = admit(7);
+  EXPECT_EQ(registry_.serialOf(7), second);
+}
+
+TEST_F(Registry, TellsACommandThatWasEndedMeanwhile) {
+  const AdmittedCommand command = registry_.admit(7, "action", kDigest).command;
+  EXPECT_NO_THROW(registry_.requireRunning(command));
+  registry_.update({command.serial, makeStatus(7, CommandStatus::ERROR, ErrorCode::kCancelled, "cancelled")});
+  EXPECT_THROW(registry_.requireRunning(command), Cancelled);
+}
+
 }  // namespace
 }  // namespace external_command

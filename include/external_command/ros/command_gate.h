@@ -33,6 +33,7 @@ struct SentMotion {
 ///   arrive()  when the request comes        -> what is stopped later than this stops it too
 ///   begin()   before the long planning      -> cancels the planning of what arrived earlier
 ///   commit()  to send it                    -> refused where a stop or a later arrival came in between
+///   cancel()  to end this one only          -> it is not sent, or cleared
 ///   retire()  when it has ended             -> it moves the vehicle no more
 class CommandGate {
  public:
@@ -65,12 +66,12 @@ class CommandGate {
 
   /// Cancels the planning in progress of an older command, if there is one. A command may begin more than once.
   /// @param planning  raised when a stop or a later command ends this one's planning.
-  /// @throws  as requireNewest()
+  /// @throws  as requireNewest(); Cancelled also where `planning` was cancelled already.
   Ticket begin(const AdmittedCommand& command, const CancelSource& planning);
 
   /// Calls `publish` and makes the ticket's command the one that moves the vehicle.
   /// @return  the motion it replaces; nullptr where none was under way.
-  /// @throws  as requireNewest(); nothing is published.
+  /// @throws  as begin(); nothing is published.
   std::shared_ptr<const SentMotion> commit(const Ticket& ticket, std::shared_ptr<const SentMotion> motion,
                                            const std::function<void()>& publish);
 
@@ -80,6 +81,14 @@ class CommandGate {
   /// @param withdraws  the motion under way, too, so that a planner that starts later does not drive it.
   /// @return  that motion; nullptr where there is none.
   std::shared_ptr<const SentMotion> stop(bool withdraws, const std::function<void()>& publish);
+
+  /// Cancels one command and no other. Both functions are called while the gate is held.
+  /// @param end    ends the command and its planning; false where it has ended already, then nothing is cleared.
+  /// @param clear  tells the planner to clear the motion, where it is the one under way. The stamp to give lies before
+  ///               that of any motion that is sent later: planners take a stop to be about the motions before its
+  ///               stamp.
+  void cancel(CommandSerial serial, const std::function<bool()>& end,
+              const std::function<void(const ros::Time& stamp)>& clear);
 
   /// Ends the motion `serial` and withdraws it; does nothing where another one is under way.
   void retire(CommandSerial serial);
@@ -99,6 +108,7 @@ class CommandGate {
   ArrivalNumber stopped_ = 0;  ///< arrivals up to this one were stopped
   ros::WallTime last_stop_;    ///< zero: never
   AdmittedCommand newest_;     ///< that began, by its arrival
+  ros::Time newest_began_;     ///< no motion of it has an earlier stamp
   CancelSource planning_;      ///< raises the newest ticket's token
   std::shared_ptr<const SentMotion> motion_;
 };

@@ -89,6 +89,12 @@ class CommandRegistry {
   std::optional<CommandStatus> statusOf(CommandSerial serial) const;
   bool isRunning(CommandSerial serial) const;
 
+  /// @throws Cancelled  the command is not running (any more): it was cancelled.
+  void requireRunning(const AdmittedCommand& command) const;
+
+  /// Of the newest command by that id; nullopt where none is known.
+  std::optional<CommandSerial> serialOf(std::int64_t command_id) const;
+
   /// Seconds since anything was reported about a sent command, or since it was sent.
   double silenceOf(CommandSerial serial) const;
 

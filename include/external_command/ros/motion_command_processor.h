@@ -70,11 +70,14 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
 
   CommandStatus execute(const Command& command, const AdmittedCommand& admitted, Response* response) final {
     const CancelSource planning;
-    const PlansInWork::Entry entry(&plans_in_work_, planning);
+    const PlansInWork::Entry entry(&plans_in_work_, admitted.serial, planning);
+    const PlansInWork::Entry cancellable(&this->context().plansInWork(), admitted.serial, planning);
+    this->context().registry().requireRunning(admitted);  // it may have been cancelled before it could be found there
     const auto slot = this->context().planningPool().take(
         command.dry_run ? PlanningPool::Kind::kDryRun : PlanningPool::Kind::kCommand, [&] {
           requireLoaded();
           if (!command.dry_run) this->context().gate().requireNewest(admitted);
+          planning.token().throwIfCancelled();
         });
     try {
       return command.dry_run ? planDry(command, slot, planning.token(), response)

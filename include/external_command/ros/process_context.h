@@ -17,7 +17,9 @@
 #include "external_command/ros/master_watch.h"
 #include "external_command/ros/motion_watch.h"
 #include "external_command/ros/parameters.h"
+#include "external_command/ros/planning_pads.h"
 #include "external_command/ros/planning_pool.h"
+#include "external_command/ros/plans_in_work.h"
 #include "external_command/ros/request_limits.h"
 #include "external_command/ros/vehicle_pose.h"
 
@@ -55,6 +57,12 @@ struct ContextParams {
 /// @throws InvalidParameter
 ContextParams readContextParams(const ParameterReader& reader);
 
+/// What became of the wish to cancel a command.
+struct Cancellation {
+  bool was_running = false;
+  CommandStatus status;  ///< of that command, after it
+};
+
 /// Holds what all processors of one namespace in one process share: map, vehicle pose, gate, registry, publishers.
 /// Processors keep it alive; the first that asks makes it. Thread-safe.
 class ProcessContext {
@@ -78,6 +86,7 @@ class ProcessContext {
   CommandRegistry& registry() { return registry_; }
   MotionWatch& motionWatch() { return motion_watch_; }
   PlanningPool& planningPool() { return *planning_pool_; }
+  PlanningPads& planningPads() { return planning_pads_; }
   Display& display() { return display_; }
 
   MasterWatch& masterWatch() { return *master_watch_; }
@@ -92,6 +101,18 @@ class ProcessContext {
   /// Puts route and path of the motion under way back onto their topics, from where the vehicle has come: it goes on
   /// after a stop. What the planning module got is not sent once more.
   void showMotionAgain();
+
+  /// Of all processors, by which a single one can be cancelled.
+  PlansInWork& plansInWork() { return plans_in_work_; }
+
+  /// Ends one command, whatever it waits for, and no other; it is then ERROR, CANCELLED. What is planned is not sent;
+  /// the planner clears what is driven; what else was sent (an action, a signal) is waited for no longer. Waits for
+  /// nothing.
+  /// @param by  who cancels it, for the status' message.
+  Cancellation cancel(CommandSerial serial, const std::string& by);
+
+  /// The same for the newest command by that id.
+  Cancellation cancelById(std::int64_t command_id, const std::string& by);
 
   /// A report of the vehicle's about a command of `processor`.
   void takeReport(CommandStatus report, const std::string& processor);
@@ -117,6 +138,8 @@ class ProcessContext {
   }
 
  private:
+  std::vector<ros::Publisher> configuredPads();
+
   struct Shared {
     ros::Publisher publisher;
     std::string type;
@@ -137,6 +160,8 @@ class ProcessContext {
   const std::shared_ptr<PlanningPool> planning_pool_;
   const std::shared_ptr<const Router> router_;
   const VehiclePose vehicle_pose_;
+  PlanningPads planning_pads_;
+  PlansInWork plans_in_work_;
   CommandGate gate_;
   CommandRegistry registry_;
   MotionWatch motion_watch_;

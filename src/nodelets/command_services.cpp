@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "command_services.h"
+
+#include <utility>
+
+#include "external_command/core/text.h"
+#include "external_command/ros/log_lane.h"
+#include "external_command/ros/status.h"
+
+namespace external_command {
+
+namespace {
+
+/// The response, whose status tells why, to a request that nothing can be built from.
+template <class Response>
+Response refusal() {
+  Response response;
+  response.status = statusFrom(std::current_exception(), 0);
+  return response;
+}
+
+}  // namespace
+
+CommandServices::CommandServices(const ros::NodeHandle& nh, const ParameterReader& parameters,
+                                 std::shared_ptr<ProcessContext> context)
+    : nh_(nh), parameters_(parameters), context_(std::move(context)) {
+  serve<GetCommandStatus>(
+      "command_status_service_name", "external_command/command_status", &status_lane_,
+      {[this](const auto& request, const MessageSize&, const ros::M_string&) { return status(request); },
+       [](const ros::M_string&) { return refusal<GetCommandStatus::Response>(); }});
+  serve<CancelCommand>(
+      "cancel_command_service_name", "external_command/cancel_command", &cancel_lane_,
+      {[this](const auto& request, const MessageSize&, const ros::M_string& header) { return cancel(request, header); },
+       [](const ros::M_string&) { return refusal<CancelCommand::Response>(); }});
+}
+
+CommandServices::~CommandServices() {
+  for (ros::ServiceServer& server : servers_) server.shutdown();
+}
+
+template <class Service>
+void CommandServices::serve(const std::string& key, std::string name, DedicatedLane* lane,
+                            BoundedServiceCallbacks<Service> callbacks) {
+  parameters_.readName(key, &name);
+  ros::AdvertiseServiceOptions options =
+      boundedService<Service>(name, std::move(callbacks), context_->params().requests);
+  options.callback_queue = lane->queue();
+  servers_.push_back(nh_.advertiseService(options));
+  if (servers_.back()) return;
+  throw InternalError(text("service ", nh_.resolveName(name),
+                           " is advertised by this process already; is the component loaded twice?"));
+}
+
+GetCommandStatus::Response CommandServices::status(const GetCommandStatus::Request& request) const {
+  GetCommandStatus::Response response;
+  response.status = context_->registry().find(request.command_id);
+  return response;
+}
+
+CancelCommand::Response CommandServices::cancel(const CancelCommand::Request& request, const ros::M_string& header) {
+  const auto caller = header.find("callerid");
+  const std::string by = text("cancel_command", caller == header.end() ? "" : " of " + caller->second);
+  const Cancellation cancellation = context_->cancelById(request.command_id, by);
+  CancelCommand::Response response;
+  response.was_running = cancellation.was_running;
+  response.status = cancellation.status;
+  if (response.was_running) {
+    logLater(LogLevel::kInfo, text("command ", request.command_id, ": ", response.status.message));
+  }
+  return response;
+}
+
+}  // namespace external_command

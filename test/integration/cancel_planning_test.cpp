@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+// A command is cancelled while it is planned or driven, and no other is touched.
+#include <gtest/gtest.h>
+#include <nodelet/loader.h>
+#include <ros/ros.h>
+
+#include <algorithm>
+#include <future>
+#include <pluginlib/class_loader.hpp>
+#include <string>
+#include <vector>
+
+#include "external_command/CancelCommand.h"
+#include "external_command/PlanningCommand.h"
+#include "external_command/PlanningPad.h"
+#include "support/blocking_nodelets.h"
+#include "support/inbox.h"
+
+namespace external_command {
+namespace {
+
+constexpr double kLatest = 0.1;  // [s]
+
+bool isMotion(const PlanningCommand& command) { return command.is_motion_command; }
+bool isWithdrawal(const PlanningCommand& command) { return !command.is_motion_command; }
+
+/// The component, and a planner that plans until the test lets it go on.
+class Cancel : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(load("external_command", "external_command/ExternalCommandProcessComponent"));
+    ASSERT_TRUE(load("planner", "test/BlockingPlanner"));
+    ASSERT_TRUE(ros::service::waitForService("external_command/cancel_command", 10000));
+    ASSERT_TRUE(ros::service::waitForService(BlockingPlanner::kService, 10000));
+  }
+
+  void TearDown() override { loader_.clear(); }
+
+  bool load(const std::string& name, const std::string& type) {
+    return loader_.load(ros::names::resolve(name), type, {}, {});
+  }
+
+  boost::shared_ptr<nodelet::Nodelet> create(const std::string& type) {
+    if (type == "test/BlockingPlanner") return planner_ = boost::make_shared<BlockingPlanner>();
+    return classes_.createInstance(type);
+  }
+
+  static CancelCommand::Response cancel(std::int64_t command_id) {
+    CancelCommand call;
+    call.request.command_id = command_id;
+    EXPECT_TRUE(ros::service::call("external_command/cancel_command", call));
+    return call.response;
+  }
+
+  /// Calls the planner; the answer comes when its gate is open.
+  static std::future<CommandStatus> plan(std::int64_t command_id, bool dry_run = false) {
+    return std::async(std::launch::async, [command_id, dry_run] {
+      PathFollow call;
+      call.request.command.command_id = command_id;
+      call.request.command.dry_run = dry_run;
+      EXPECT_TRUE(ros::service::call(BlockingPlanner::kService, call));
+      return call.response.status;
+    });
+  }
+
+  /// A command that is driven.
+  CommandStatus drive(std::int64_t command_id) {
+    planner_->holdPlans(true)->open();
+    const CommandStatus status = plan(command_id).get();
+    EXPECT_EQ(status.status, CommandStatus::RUNNING) << status.message;
+    return status;
+  }
+
+  void expectCancelled(const CommandStatus& status, std::int64_t command_id) {
+    EXPECT_EQ(status.command_id, command_id);
+    EXPECT_EQ(status.status, CommandStatus::ERROR);
+    EXPECT_EQ(status.error_code, CommandStatus::CANCELLED);
+    EXPECT_NE(status.message.find("cancelled by cancel_command"), std::string::npos) << status.message;
+  }
+
+  pluginlib::ClassLoader<nodelet::Nodelet> classes_{"nodelet", "nodelet::Nodelet"};
+  boost::shared_ptr<BlockingPlanner> planner_;
+  nodelet::Loader loader_{boost::function<boost::shared_ptr<nodelet::Nodelet>(const std::string&)>(
+      [this](const std::string& type) { return create(type); })};
+};
+
+TEST_F(Cancel, EndsAPlanThatPollsItsToken) {
+  const auto gate = planner_->holdPlans(true);
+  auto planned = plan(7);
+  ASSERT_TRUE(gate->waitForEntered(1));
+  const CancelCommand::Response answer = cancel(7);
+  EXPECT_TRUE(answer.was_running);
+  expectCancelled(answer.status, 7);
+  EXPECT_TRUE(gate->waitForLeft(1)) << "though nobody opened the gate";
+  expectCancelled(planned.get(), 7);
+}
+
+TEST_F(Cancel, KeepsAPlanFromBeingSentThatDoesNotNotice) {
+  Inbox<PlanningCommand> commands("planning/command");
+  const auto gate = planner_->holdPlans(false);
+  auto planned = plan(7);
+  ASSERT_TRUE(gate->waitForEntered(1));
+  EXPECT_TRUE(cancel(7).was_running);
+  gate->open();
+  expectCancelled(planned.get(), 7);
+  const CommandStatus next = drive(8);
+  ASSERT_TRUE(commands.waitFor(1));
+  EXPECT_EQ(commands.messages().front().command_id, next.command_id) << "the first that arrives";
+}
+
+TEST_F(Cancel, EndsWhatWaitsForAThread) {
+  const auto gate = planner_->holdPlans(false);
+  std::vector<std::future<CommandStatus>> plans;
+  for (int i = 1; i <= 2; ++i) plans.push_back(plan(i));
+  ASSERT_TRUE(gate->waitForEntered(2));
+  Inbox<CommandStatus> statuses("external_command/status");
+  auto waiting = plan(7);
+  ASSERT_TRUE(statuses.waitFor(1, [](const CommandStatus& status) { return status.command_id == 7; }));
+  EXPECT_TRUE(cancel(7).was_running);
+  expectCancelled(waiting.get(), 7);
+  gate->open();
+  for (auto& planned : plans) planned.get();
+}
+
+TEST_F(Cancel, EndsADryRun) {
+  const auto gate = planner_->holdPlans(true);
+  auto planned = plan(7, true);
+  ASSERT_TRUE(gate->waitForEntered(1));
+  EXPECT_TRUE(cancel(7).was_running);
+  expectCancelled(planned.get(), 7);
+}
+
+TEST_F(Cancel, IsAnsweredAtOnceWhileAsMuchAsCanBeIsPlanned) {
+  const auto gate = planner_->holdPlans(false);
+  std::vector<std::future<CommandStatus>> plans;
+  for (int i = 1; i <= 8; ++i) plans.push_back(plan(i));
+  ASSERT_TRUE(gate->waitForEntered(2));
+  double slowest = 0.0;
+  for (int i = 0; i < 50; ++i) {
+    const ros::SteadyTime begin = ros::SteadyTime::now();
+    cancel(1);
+    slowest = std::max(slowest, (ros::SteadyTime::now() - begin).toSec());
+  }
+  EXPECT_LT(slowest, kLatest);
+  gate->open();
+  for (auto& planned : plans) planned.get();
+}
+
+TEST_F(Cancel, ClearsTheMotionThatIsDriven) {
+  Inbox<PlanningCommand> commands("planning/command");
+  Inbox<PlanningPad> pads("planning/pad");
+  drive(7);
+  ASSERT_TRUE(commands.waitFor(1, &isMotion));
+  const CancelCommand::Response answer = cancel(7);
+  EXPECT_TRUE(answer.was_running);
+  expectCancelled(answer.status, 7);
+  ASSERT_TRUE(pads.waitFor(1));
+  EXPECT_EQ(pads.messages().front().action, PlanningPad::CLEAR_PLANNING);
+  EXPECT_GT(pads.messages().front().header.stamp, commands.messages().front().header.stamp);
+  ASSERT_TRUE(commands.waitFor(1, &isWithdrawal));
+  EXPECT_EQ(commands.messages().back().command_id, 7);
+
+  const CancelCommand::Response again = cancel(7);
+  EXPECT_FALSE(again.was_running);
+  expectCancelled(again.status, 7);
+  drive(8);
+  ASSERT_TRUE(commands.waitFor(2, &isMotion));
+  EXPECT_EQ(pads.messages().size(), 1u) << "it is cleared once";
+}
+
+TEST_F(Cancel, LeavesTheMotionThatIsDrivenAloneWhereANewerIsPlanned) {
+  Inbox<PlanningPad> pads("planning/pad");
+  drive(7);
+  const auto gate = planner_->holdPlans(true);
+  auto planned = plan(8);
+  ASSERT_TRUE(gate->waitForEntered(1));
+  EXPECT_TRUE(cancel(8).was_running);
+  expectCancelled(planned.get(), 8);
+  const CancelCommand::Response first = cancel(7);
+  EXPECT_TRUE(first.was_running) << first.status.message;
+  ASSERT_TRUE(pads.waitFor(1));
+  EXPECT_EQ(pads.messages().size(), 1u) << "that of the one that was driven";
+}
+
+TEST_F(Cancel, DoesNotEndTheNewerCommandThatIsPlannedWhileTheDrivenOneIsCleared) {
+  Inbox<PlanningCommand> commands("planning/command");
+  Inbox<PlanningPad> pads("planning/pad");
+  drive(7);
+  const auto gate = planner_->holdPlans(true);
+  auto planned = plan(8);
+  ASSERT_TRUE(gate->waitForEntered(1));
+  EXPECT_TRUE(cancel(7).was_running);
+  gate->open();
+  EXPECT_EQ(planned.get().status, CommandStatus::RUNNING);
+  ASSERT_TRUE(commands.waitFor(2, &isMotion));
+  ASSERT_TRUE(pads.waitFor(1));
+  EXPECT_LE(pads.messages().front().header.stamp, commands.messages().back().header.stamp)
+      << "a planner that hears of both in another order drives the newer one";
+}
+
+TEST_F(Cancel, ClearsNothingForACommandThatWasSuperseded) {
+  Inbox<PlanningPad> pads("planning/pad");
+  drive(7);
+  drive(8);
+  const CancelCommand::Response answer = cancel(7);
+  EXPECT_FALSE(answer.was_running);
+  EXPECT_EQ(answer.status.error_code, CommandStatus::SUPERSEDED) << answer.status.message;
+  EXPECT_TRUE(cancel(8).was_running);
+  ASSERT_TRUE(pads.waitFor(1));
+  EXPECT_EQ(pads.messages().size(), 1u);
+}
+
+TEST_F(Cancel, MeansTheNewestCommandByAnId) {
+  drive(7);
+  EXPECT_TRUE(cancel(7).was_running);
+  const auto gate = planner_->holdPlans(true);
+  auto planned = plan(7);
+  ASSERT_TRUE(gate->waitForEntered(1));
+  EXPECT_TRUE(cancel(7).was_running);
+  expectCancelled(planned.get(), 7);
+}
+
+TEST_F(Cancel, SaysThatItKnowsNoSuchCommand) {
+  const CancelCommand::Response answer = cancel(4711);
+  EXPECT_FALSE(answer.was_running);
+  EXPECT_EQ(answer.status.status, CommandStatus::UNKNOWN);
+  EXPECT_EQ(answer.status.error_code, CommandStatus::UNKNOWN_ID) << answer.status.message;
+  EXPECT_EQ(answer.status.command_id, 4711);
+}
+
+}  // namespace
+}  // namespace external_command
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "cancel_planning_test");
+  const ros::NodeHandle nh;  // keeps ROS running between the tests
+  return RUN_ALL_TESTS();
+}
