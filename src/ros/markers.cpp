@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "marker_shapes.h"
+
 namespace external_command {
 
 namespace {
@@ -11,117 +13,10 @@ namespace {
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
-// One above the other, so that what matters more is not hidden [m].
-constexpr double kSurfaceHeight = -0.2;
-constexpr double kLineHeight = 0.0;
-constexpr double kRouteHeight = 0.2;
-constexpr double kPathHeight = 0.4;
-constexpr double kPoseHeight = 0.6;
-constexpr double kRouteArrow = 6.0;       // seen from high above [m]
-constexpr double kManoeuvreArrow = 2.0;   // smaller than the footprint it stands in [m]
-constexpr double kFootprintStep = 1.0;    // between two footprints drawn [m]
-constexpr double kStraightEnough = 0.02;  // a line's points that turn less than this are left out [rad]
-constexpr double kLongestSegment = 25.0;  // [m]
-
-std_msgs::ColorRGBA color(float r, float g, float b, float a = 1.0F) {
-  std_msgs::ColorRGBA made;
-  made.r = r;
-  made.g = g;
-  made.b = b;
-  made.a = a;
-  return made;
-}
-
-const auto kWhite = color(0.85F, 0.85F, 0.85F);
-const auto kYellow = color(0.95F, 0.75F, 0.1F);
-const auto kForward = color(0.1F, 0.9F, 0.3F);
-const auto kReverse = color(1.0F, 0.45F, 0.0F);
-const auto kRed = color(0.95F, 0.1F, 0.1F);
-
-geometry_msgs::Point raised(const Point2d& point, double height) {
-  geometry_msgs::Point msg;
-  msg.x = point.x();
-  msg.y = point.y();
-  msg.z = height;
-  return msg;
-}
-
-geometry_msgs::Quaternion rotation(double heading) {
-  geometry_msgs::Quaternion msg;
-  msg.z = std::sin(heading / 2.0);
-  msg.w = std::cos(heading / 2.0);
-  return msg;
-}
-
-Marker marker(const std::string& frame, const std::string& ns, int type, double scale,
-              const std_msgs::ColorRGBA& paint) {
-  Marker made;
-  made.header.frame_id = frame;
-  made.ns = ns;
-  made.type = type;
-  made.action = Marker::ADD;
-  made.pose.orientation.w = 1.0;
-  made.scale.x = scale;
-  if (type == Marker::SPHERE_LIST || type == Marker::TRIANGLE_LIST) made.scale.y = made.scale.z = scale;
-  made.color = paint;
-  return made;
-}
-
-void addLine(const std::vector<Point2d>& points, double height, Marker* lines) {
-  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    lines->points.push_back(raised(points[i], height));
-    lines->points.push_back(raised(points[i + 1], height));
-  }
-}
-
-void addRing(std::vector<Point2d> points, double height, Marker* lines) {
-  if (points.empty()) return;
-  points.push_back(points.front());
-  addLine(points, height, lines);
-}
-
-/// Which points of a dense line are needed to draw it.
-std::vector<std::size_t> drawnPoints(const std::vector<Point2d>& points) {
-  std::vector<std::size_t> kept = {0};
-  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-    const Point2d in = points[i] - points[kept.back()], out = points[i + 1] - points[i];
-    const double turn = std::abs(angleBetween(headingOf(in), headingOf(out)));
-    if (turn > kStraightEnough || in.norm() > kLongestSegment) kept.push_back(i);
-  }
-  if (points.size() > 1) kept.push_back(points.size() - 1);
-  return kept;
-}
-
-void addSurface(const Lane& lane, Marker* triangles) {
-  const auto& points = lane.center.points();
-  const auto headings = headingsOf(points);
-  geometry_msgs::Point last_left, last_right;
-  bool first = true;
-  for (const std::size_t i : drawnPoints(points)) {
-    const double half = lane.widthAt(lane.center.arcLengths()[i]) / 2.0;
-    const Point2d side = half * unitVector(headings[i] + M_PI / 2.0);
-    const auto left = raised(points[i] + side, kSurfaceHeight), right = raised(points[i] - side, kSurfaceHeight);
-    if (!first) {
-      for (const auto& corner : {last_left, last_right, left, left, last_right, right}) {
-        triangles->points.push_back(corner);
-      }
-    }
-    last_left = left;
-    last_right = right;
-    first = false;
-  }
-}
-
-void addBoundary(const LaneBoundary& boundary, Marker* lines) {
-  if (boundary.is_virtual || boundary.points.size() < 2) return;
-  const BoundaryType type = boundary.types.empty() ? BoundaryType::kUnknown : boundary.types.front().type;
-  const bool is_yellow =
-      type == BoundaryType::kDottedYellow || type == BoundaryType::kSolidYellow || type == BoundaryType::kDoubleYellow;
-  std::vector<Point2d> points;
-  for (const std::size_t i : drawnPoints(boundary.points)) points.push_back(boundary.points[i]);
-  addLine(points, kLineHeight, lines);
-  lines->colors.resize(lines->points.size(), is_yellow ? kYellow : kWhite);
-}
+constexpr double kRouteArrow = 6.0;      // seen from high above [m]
+constexpr double kManoeuvreArrow = 2.0;  // smaller than the footprint it stands in [m]
+constexpr double kFootprintStep = 1.0;   // between two footprints drawn [m]
+constexpr int kRingCorners = 48;
 
 std::vector<Point2d> outline(const VehicleParams& vehicle, const Pose2d& pose) {
   const auto corners = footprintAt(vehicle, pose, 0.0);
@@ -132,7 +27,8 @@ void addPath(const Path& path, Marker* lines) {
   for (std::size_t i = 1; i < path.size(); ++i) {
     lines->points.push_back(raised(path[i - 1].pose().position(), kPathHeight));
     lines->points.push_back(raised(path[i].pose().position(), kPathHeight));
-    lines->colors.resize(lines->points.size(), path[i].direction == Direction::kForward ? kForward : kReverse);
+    lines->colors.resize(lines->points.size(),
+                         path[i].direction == Direction::kForward ? paint::kForward : paint::kReverse);
   }
 }
 
@@ -165,65 +61,51 @@ void addRings(const std::vector<std::vector<Point2d>>& rings, Marker* lines) {
 
 }  // namespace
 
-MarkerArray mapMarkers(const HdMap& map, const std::string& frame) {
-  Marker surfaces = marker(frame, "lanes", Marker::TRIANGLE_LIST, 1.0, color(0.30F, 0.31F, 0.34F));
-  Marker others = marker(frame, "other_lanes", Marker::TRIANGLE_LIST, 1.0, color(0.22F, 0.22F, 0.23F));
-  Marker centers = marker(frame, "center_lines", Marker::LINE_LIST, 0.08, color(0.45F, 0.5F, 0.6F));
-  Marker boundaries = marker(frame, "boundaries", Marker::LINE_LIST, 0.15, kWhite);
-  Marker junctions = marker(frame, "junctions", Marker::LINE_LIST, 0.2, color(0.5F, 0.4F, 0.7F));
-  Marker spaces = marker(frame, "parking_spaces", Marker::LINE_LIST, 0.15, color(0.3F, 0.7F, 1.0F));
-  Marker areas = marker(frame, "areas", Marker::LINE_LIST, 0.3, color(0.3F, 0.8F, 0.7F));
-  for (const Lane& lane : map.lanes()) {
-    addSurface(lane, lane.isDrivable() ? &surfaces : &others);
-    if (lane.isDrivable()) {
-      std::vector<Point2d> center;
-      for (const std::size_t i : drawnPoints(lane.center.points())) center.push_back(lane.center.points()[i]);
-      addLine(center, kLineHeight, &centers);
-    }
-    addBoundary(lane.left, &boundaries);
-    addBoundary(lane.right, &boundaries);
-  }
-  for (const Junction& junction : map.junctions()) addRing(junction.polygon.points(), kLineHeight, &junctions);
-  for (const ParkingSpace& space : map.parkingSpaces()) addRing(space.polygon.points(), kLineHeight, &spaces);
-  for (const Area& area : map.areas()) addRing(area.polygon.points(), kLineHeight, &areas);
-
-  MarkerArray array;
-  for (Marker* part : {&surfaces, &others, &centers, &boundaries, &junctions, &spaces, &areas}) {
-    if (!part->points.empty()) array.markers.push_back(std::move(*part));
-  }
-  return array;
-}
-
-Marker vehicleMarker(const VehicleParams& vehicle, const std::string& base_frame) {
-  Marker body = marker(base_frame, "footprint", Marker::CUBE, vehicle.length(), color(1.0F, 0.6F, 0.1F));
+MarkerArray vehicleMarkers(const VehicleParams& vehicle, const std::string& base_frame, double ring_radius) {
+  Marker body = marker(base_frame, "footprint", Marker::CUBE, vehicle.length(), paint::kVehicle);
   body.scale.y = vehicle.width;
   body.scale.z = 0.2;
   body.pose.position.x = vehicle.length() / 2.0 - vehicle.rear_overhang;
   body.pose.position.z = kPoseHeight;
-  body.frame_locked = true;
-  return body;
+
+  Marker ring = marker(base_frame, "vehicle_ring", Marker::TRIANGLE_LIST, 1.0, paint::kVehicle);
+  ring.pose.position = body.pose.position;
+  const auto corner = [&](int i, double share) -> Point2d {
+    return share * ring_radius * unitVector(2.0 * M_PI * i / kRingCorners);
+  };
+  for (int i = 0; i < kRingCorners; ++i) {
+    const Point2d inner = corner(i, 0.9), outer = corner(i, 1.0), next_inner = corner(i + 1, 0.9);
+    addTriangles({inner, outer, next_inner, outer, corner(i + 1, 1.0), next_inner}, 0.0, &ring);
+  }
+  addTriangles({ring_radius * Point2d(1.1, 0.4), ring_radius * Point2d(1.1, -0.4), ring_radius * Point2d(1.7, 0.0)},
+               0.0, &ring);
+
+  MarkerArray array;
+  array.markers = {body, ring};
+  for (Marker& part : array.markers) part.frame_locked = true;
+  return array;
 }
 
 MarkerArray commandMarkers(const CommandScene& scene, const HdMap* map, const VehicleParams& vehicle,
                            const std::string& frame) {
-  Marker route = marker(frame, "route", Marker::LINE_LIST, 2.5, color(0.15F, 0.45F, 0.95F, 0.6F));
+  Marker route = marker(frame, "route", Marker::LINE_LIST, 2.5, paint::kRoute);
   if (scene.route && map != nullptr) {
     for (const RouteStep& step : scene.route->steps) {
       if (step.to_s - step.from_s < 0.01) continue;
       addLine(map->lane(step.lane).center.slice(step.from_s, step.to_s).points(), kRouteHeight, &route);
     }
   }
-  Marker path = marker(frame, "path", Marker::LINE_LIST, 0.6, kForward);
+  Marker path = marker(frame, "path", Marker::LINE_LIST, 0.6, paint::kForward);
   addPath(scene.path, &path);
-  Marker footprints = marker(frame, "footprints", Marker::LINE_LIST, 0.04, color(0.8F, 0.8F, 0.4F, 0.6F));
+  Marker footprints = marker(frame, "footprints", Marker::LINE_LIST, 0.04, paint::kFootprint);
   if (scene.with_footprints) addFootprints(scene.path, vehicle, &footprints);
-  Marker way_points = marker(frame, "way_points", Marker::SPHERE_LIST, 2.5, color(0.9F, 0.3F, 0.9F));
+  Marker way_points = marker(frame, "way_points", Marker::SPHERE_LIST, 2.5, paint::kWayPoint);
   for (const Point2d& point : scene.way_points) way_points.points.push_back(raised(point, kPoseHeight));
-  Marker regions = marker(frame, "region", Marker::LINE_LIST, 0.15, color(0.3F, 0.8F, 0.7F));
+  Marker regions = marker(frame, "region", Marker::LINE_LIST, 0.15, paint::kArea);
   addRings(scene.regions, &regions);
-  Marker obstacles = marker(frame, "obstacles", Marker::LINE_LIST, 0.15, color(0.8F, 0.2F, 0.2F));
+  Marker obstacles = marker(frame, "obstacles", Marker::LINE_LIST, 0.15, paint::kObstacle);
   addRings(scene.obstacles, &obstacles);
-  Marker conflicts = marker(frame, "conflicts", Marker::LINE_LIST, 0.3, kRed);
+  Marker conflicts = marker(frame, "conflicts", Marker::LINE_LIST, 0.3, paint::kConflict);
   addRings(scene.conflicts, &conflicts);
 
   MarkerArray array;
@@ -232,8 +114,8 @@ MarkerArray commandMarkers(const CommandScene& scene, const HdMap* map, const Ve
     array.markers.push_back(std::move(*part));
   }
   const double arrow_length = scene.with_footprints ? kManoeuvreArrow : kRouteArrow;
-  array.markers.push_back(arrow(frame, "start", scene.start, arrow_length, kForward));
-  array.markers.push_back(arrow(frame, "goal", scene.goal, arrow_length, kRed));
+  array.markers.push_back(arrow(frame, "start", scene.start, arrow_length, paint::kForward));
+  array.markers.push_back(arrow(frame, "goal", scene.goal, arrow_length, paint::kConflict));
   return array;
 }
 

@@ -53,6 +53,15 @@ MotionWatchParams readMotionWatchParams(const ParameterReader& reader) {
   return params;
 }
 
+/// Where the vehicle is, where that is known.
+std::optional<Point2d> placeOf(const VehiclePose& vehicle) {
+  try {
+    return vehicle.get().position();
+  } catch (const NotReady&) {
+    return std::nullopt;
+  }
+}
+
 /// Tells programs that know the map file's coordinates what to subtract from them.
 void publishOrigin(const ros::NodeHandle& parameters, const Router* router) {
   const Point2d origin = router ? router->map().origin() : Point2d::Zero();
@@ -85,7 +94,6 @@ ContextParams readContextParams(const ParameterReader& reader) {
   reader.readName("command_log_name", &params.log_topic);
   reader.readName("routing_response_name", &params.routing_response_topic);
   reader.readName("path_name", &params.path_topic);
-  reader.readName("markers_name", &params.markers_topic);
   params.vehicle = readVehicleParams(reader.within("vehicle"));
   const ParameterReader routing = reader.within("routing");
   params.router = readRouterParams(routing);
@@ -94,6 +102,11 @@ ContextParams readContextParams(const ParameterReader& reader) {
   params.reference_path = readReferencePathParams(routing);
   params.path_bounds = readPathBounds(routing);
   params.limits = readDriveLimits(reader.within("limits"));
+  params.display = readDisplayParams(reader);
+  params.display.map_frame = params.map_frame;
+  params.display.base_frame = params.base_frame;
+  params.display.vehicle = params.vehicle;
+  params.display.requests = params.requests;
   return params;
 }
 
@@ -124,8 +137,7 @@ ProcessContext::ProcessContext(const ros::NodeHandle& nh, const ros::NodeHandle&
           },
           params_.reports),
       motion_watch_(params_.motion_watch, params_.vehicle, vehicle_pose_, gate_, registry_),
-      display_(nh_, {params_.markers_topic, params_.map_frame, params_.base_frame, params_.vehicle},
-               router_ ? router_->mapPtr() : nullptr),
+      display_(nh_, params_.display, router_ ? router_->mapPtr() : nullptr, [this] { return placeOf(vehicle_pose_); }),
       housekeeping_(LaneOptions{"the housekeeping lane"}),
       reports_(LaneOptions{"the lane of the vehicle's reports"}) {
   publishOrigin(parameters, router_.get());

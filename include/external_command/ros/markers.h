@@ -26,11 +26,11 @@ struct CommandScene {
   bool with_footprints = false;                 ///< draw the vehicle's footprint along the path
 };
 
-/// The map: lane surfaces, centre lines, boundaries, junctions, parking spaces, areas; few markers with many points.
-visualization_msgs::MarkerArray mapMarkers(const HdMap& map, const std::string& frame);
-
-/// The vehicle's outline, which rviz moves along with `base_frame`.
-visualization_msgs::Marker vehicleMarker(const VehicleParams& vehicle, const std::string& base_frame);
+/// The vehicle's outline, and round it a ring that points ahead, to be seen from high above: namespaces `footprint` and
+/// `vehicle_ring`. rviz moves them along with `base_frame`.
+/// @param ring_radius  [m]
+visualization_msgs::MarkerArray vehicleMarkers(const VehicleParams& vehicle, const std::string& base_frame,
+                                               double ring_radius);
 
 /// The scene of one command. Parts that are empty are deleted from the display.
 /// @param map  that of the scene's route; may be nullptr where it has none.

@@ -45,13 +45,13 @@ struct ContextParams {
   std::string log_topic = "external_command/log";
   std::string routing_response_topic = "routing_response";
   std::string path_topic = "external_command/path";
-  std::string markers_topic = "external_command/markers";
   VehicleParams vehicle;
   RouterParams router;
   LaneWayParams lane_way;
   ReferencePathParams reference_path;
   PathBounds path_bounds;
   DriveLimits limits;
+  DisplayParams display;
 };
 
 /// @throws InvalidParameter
