@@ -45,6 +45,7 @@ const std::vector<Junction>& HdMap::junctions() const { return content_->map.jun
 const std::vector<ParkingSpace>& HdMap::parkingSpaces() const { return content_->map.parking_spaces; }
 const std::vector<Area>& HdMap::areas() const { return content_->map.areas; }
 const std::vector<MapWarning>& HdMap::warnings() const { return content_->map.warnings; }
+const std::vector<MapFinding>& HdMap::findings() const { return content_->map.findings; }
 const std::vector<BrokenLink>& HdMap::brokenLinks() const { return content_->map.broken_links; }
 
 std::optional<LaneIndex> HdMap::findLane(const std::string& id) const {

@@ -9,7 +9,7 @@ namespace external_command {
 /// Linked lanes whose points all lie within 1 mm, as connecting lanes of some maps do, get a centre line of just over
 /// 1 mm in the direction of the lanes they connect, so that they keep their links. Lanes of a single point stay as they
 /// are.
-void stretchPointLanes(MapData* data, std::vector<MapWarning>* warnings);
+void stretchPointLanes(MapData* data, MapFaults* faults);
 
 /// Neighbours in the same direction that the file states on the wrong side change sides; those that run the other way,
 /// or lie too far off for a lane change, are dropped.

@@ -8,7 +8,6 @@
 #include "lane_checks.h"
 #include "lane_heights.h"
 #include "map_resolver.h"
-#include "warning_counter.h"
 
 namespace external_command {
 
@@ -29,6 +28,12 @@ const Point2d* findLeap(const std::vector<Point2d>& points) {
 const Point2d* findImplausible(const std::vector<Point2d>& points) {
   const auto found = std::find_if_not(points.begin(), points.end(), isPlausible);
   return found == points.end() ? nullptr : &*found;
+}
+
+/// Where a fault of a lane as a whole is told to lie.
+FaultPlace beginOf(const LaneData& lane) {
+  const bool has_place = !lane.center.empty() && isPlausible(lane.center.front());
+  return {has_place ? std::optional<Point2d>(lane.center.front()) : std::nullopt};
 }
 
 /// A map without heights states 0 throughout.
@@ -54,17 +59,15 @@ class LaneResolver {
     for (std::size_t i = 0; i < map_.lanes.size(); ++i) resolveReferences(i);
     deriveLinks();
     for (const RoadData& road : data_.roads) addRoad(road);
-    for (const WarningCounter* counter :
-         {&repeated_, &dangling_, &lengths_, &boundaries_, &samples_, &speeds_, &unlinked_, &roads_, &unusable_}) {
-      counter->report(&map_.warnings);
-    }
   }
 
  private:
   void addLane(LaneData* lane);
   bool clean(LaneData* lane);
-  void cleanBoundary(const std::string& lane_id, const char* side, LaneBoundary* boundary);
-  void cleanWidths(const std::string& lane_id, std::vector<WidthSample>* samples);
+  void cleanBoundary(const LaneData& lane, const char* side, LaneBoundary* boundary);
+  void cleanWidths(const LaneData& lane, std::vector<WidthSample>* samples);
+  void checkType(const LaneData& lane);
+  void compareLength(const LaneData& lane, const Polyline& center);
   void resolveReferences(std::size_t index);
   std::vector<LaneIndex> resolved(const std::vector<std::string>& ids, const char* kind, LaneIndex self);
   std::vector<LaneIndex> neighbours(const std::vector<std::string>& ids, const char* kind, LaneIndex self);
@@ -75,27 +78,20 @@ class LaneResolver {
   MapContent& map_;
   bool has_heights_ = false;
   std::vector<const LaneData*> sources_;  // of each lane, for its references
-  WarningCounter unusable_{"lanes dropped that cannot be used"};
-  WarningCounter repeated_{"lanes dropped whose id an earlier lane has"};
-  WarningCounter dangling_{"references to lanes that do not exist"};
-  WarningCounter lengths_{"lanes whose length is missing or wrong; that of the centre line is used"};
-  WarningCounter boundaries_{"lane boundaries dropped that have a coordinate out of range"};
-  WarningCounter samples_{"width samples dropped that are negative or not finite"};
-  WarningCounter speeds_{"speed limits dropped that are negative or not finite"};
-  WarningCounter unlinked_{"lanes linked backwards only; what leads on was taken from the predecessors"};
-  WarningCounter roads_{"lanes named by more than one road, of which the first counts"};
 };
 
 void LaneResolver::addLane(LaneData* lane) {
   if (!clean(lane)) return;
-  if (map_.lane_by_id.count(lane->id) > 0) return repeated_.add(lane->id);
+  if (map_.lane_by_id.count(lane->id) > 0) {
+    map_.faults.add(MapFault::kLaneIdRepeated, {lane->id}, beginOf(*lane), lane->id);
+    return;
+  }
   try {
     std::vector<HeightSample> heights;
     if (has_heights_) heights = heightProfile(lane->center, lane->heights);
     Polyline center(lane->center);
-    if (std::abs(center.length() - lane->length) > kLengthTolerance + kLengthShare * center.length()) {
-      lengths_.add(lane->id, ": ", metres(lane->length), " stated, ", metres(center.length()), " measured");
-    }
+    compareLength(*lane, center);
+    checkType(*lane);
     map_.lanes.push_back({std::move(lane->id),
                           std::move(center),
                           std::move(lane->left),
@@ -116,7 +112,9 @@ void LaneResolver::addLane(LaneData* lane) {
                           std::move(lane->junction),
                           std::move(heights)});
   } catch (const std::invalid_argument& error) {
-    return unusable_.add(lane->id, ": the centre line has ", error.what());
+    map_.faults.add(MapFault::kLaneUnusable, {lane->id}, beginOf(*lane), lane->id, ": the centre line has ",
+                    error.what());
+    return;
   }
   map_.lane_by_id.emplace(map_.lanes.back().id, static_cast<LaneIndex>(map_.lanes.size() - 1));
   sources_.push_back(lane);
@@ -125,33 +123,50 @@ void LaneResolver::addLane(LaneData* lane) {
 /// @return false where the lane cannot be used at all.
 bool LaneResolver::clean(LaneData* lane) {
   if (lane->id.empty()) {
-    unusable_.add("a lane without an id");
+    map_.faults.add(MapFault::kLaneUnusable, {}, beginOf(*lane), "a lane without an id");
     return false;
   }
   if (const Point2d* point = findImplausible(lane->center)) {
-    unusable_.add(lane->id, ": point ", point - lane->center.data(), " of the centre line is ", at(*point));
+    map_.faults.add(MapFault::kLaneUnusable, {lane->id}, beginOf(*lane), lane->id, ": point ",
+                    point - lane->center.data(), " of the centre line is ", at(*point));
     return false;
   }
   if (const Point2d* point = findLeap(lane->center)) {
-    unusable_.add(lane->id, ": point ", point - lane->center.data(), " of the centre line, ", at(*point), ", lies ",
-                  metres((*point - *std::prev(point)).norm()), " from the one before it; the limit is ",
-                  metres(kLongestSegment));
+    map_.faults.add(MapFault::kLaneUnusable, {lane->id}, {*std::prev(point)}, lane->id, ": point ",
+                    point - lane->center.data(), " of the centre line, ", at(*point), ", lies ",
+                    metres((*point - *std::prev(point)).norm()), " from the one before it; the limit is ",
+                    metres(kLongestSegment));
     return false;
   }
-  cleanBoundary(lane->id, "left", &lane->left);
-  cleanBoundary(lane->id, "right", &lane->right);
-  cleanWidths(lane->id, &lane->left_widths);
-  cleanWidths(lane->id, &lane->right_widths);
+  cleanBoundary(*lane, "left", &lane->left);
+  cleanBoundary(*lane, "right", &lane->right);
+  cleanWidths(*lane, &lane->left_widths);
+  cleanWidths(*lane, &lane->right_widths);
   if (!isUsable(lane->speed_limit)) {
-    speeds_.add(lane->id, ": ", lane->speed_limit);
+    map_.faults.add(MapFault::kSpeedLimitUnusable, {lane->id}, beginOf(*lane), lane->id, ": ", lane->speed_limit);
     lane->speed_limit = 0.0;
   }
   return true;
 }
 
-void LaneResolver::cleanBoundary(const std::string& lane_id, const char* side, LaneBoundary* boundary) {
+void LaneResolver::compareLength(const LaneData& lane, const Polyline& center) {
+  const double off = std::abs(center.length() - lane.length);
+  if (off <= kLengthTolerance + kLengthShare * center.length()) return;
+  map_.faults.add(MapFault::kLaneLengthWrong, {lane.id}, beginOf(lane), lane.id, ": ", metres(lane.length), " stated, ",
+                  metres(center.length()), " measured");
+}
+
+void LaneResolver::checkType(const LaneData& lane) {
+  if (lane.type_statement == TypeStatement::kKnown) return;
+  const bool is_missing = lane.type_statement == TypeStatement::kMissing;
+  map_.faults.add(is_missing ? MapFault::kLaneTypeMissing : MapFault::kLaneTypeUnknown, {lane.id}, beginOf(lane),
+                  lane.id);
+}
+
+void LaneResolver::cleanBoundary(const LaneData& lane, const char* side, LaneBoundary* boundary) {
   if (const Point2d* point = findImplausible(boundary->points)) {
-    boundaries_.add(lane_id, ": point ", point - boundary->points.data(), " of the ", side, " one is ", at(*point));
+    map_.faults.add(MapFault::kBoundaryUnusable, {lane.id}, beginOf(lane), lane.id, ": point ",
+                    point - boundary->points.data(), " of the ", side, " one is ", at(*point));
     boundary->points.clear();
   }
   const auto byS = [](const BoundaryTypeChange& a, const BoundaryTypeChange& b) { return a.s < b.s; };
@@ -161,10 +176,12 @@ void LaneResolver::cleanBoundary(const std::string& lane_id, const char* side, L
   if (!std::is_sorted(types.begin(), types.end(), byS)) std::stable_sort(types.begin(), types.end(), byS);
 }
 
-void LaneResolver::cleanWidths(const std::string& lane_id, std::vector<WidthSample>* samples) {
+void LaneResolver::cleanWidths(const LaneData& lane, std::vector<WidthSample>* samples) {
   const auto is_bad = [](const WidthSample& sample) { return !isUsable(sample.s) || !isUsable(sample.width); };
   const auto bad = std::remove_if(samples->begin(), samples->end(), is_bad);
-  for (auto sample = bad; sample != samples->end(); ++sample) samples_.add(lane_id);
+  for (auto sample = bad; sample != samples->end(); ++sample) {
+    map_.faults.add(MapFault::kWidthSampleUnusable, {lane.id}, beginOf(lane), lane.id);
+  }
   samples->erase(bad, samples->end());
   const auto byS = [](const WidthSample& a, const WidthSample& b) { return a.s < b.s; };
   if (!std::is_sorted(samples->begin(), samples->end(), byS)) std::stable_sort(samples->begin(), samples->end(), byS);
@@ -188,7 +205,9 @@ std::vector<LaneIndex> LaneResolver::resolved(const std::vector<std::string>& id
   for (const std::string& id : ids) {
     const auto found = map_.lane_by_id.find(id);
     if (found == map_.lane_by_id.end()) {
-      dangling_.add(kind, " ", id, " of ", map_.lanes[self].id);
+      const Lane& lane = map_.lanes[self];
+      map_.faults.add(MapFault::kReferenceDangling, {lane.id, id}, {lane.center.points().front()}, kind, " ", id,
+                      " of ", lane.id);
     } else if (std::find(lanes.begin(), lanes.end(), found->second) == lanes.end()) {
       lanes.push_back(found->second);
     }
@@ -220,7 +239,8 @@ void LaneResolver::deriveLinks() {
   const bool has_no_predecessors = no_lane_has(&Lane::predecessors);
   if (has_no_successors && !has_no_predecessors) {
     for (const Lane& lane : map_.lanes) {
-      if (!lane.predecessors.empty()) unlinked_.add(lane.id);
+      if (lane.predecessors.empty()) continue;
+      map_.faults.add(MapFault::kLinkBackwardsOnly, {lane.id}, {lane.center.points().front()}, lane.id);
     }
     invert(&Lane::predecessors, &Lane::successors);
   } else if (has_no_predecessors) {
@@ -234,12 +254,13 @@ void LaneResolver::addRoad(const RoadData& road) {
     for (const std::string& id : section.lanes) {
       const auto found = map_.lane_by_id.find(id);
       if (found == map_.lane_by_id.end()) {
-        dangling_.add("lane ", id, " of road ", road.id);
+        map_.faults.add(MapFault::kReferenceDangling, {road.id, id}, {}, "lane ", id, " of road ", road.id);
         continue;
       }
       Lane& lane = map_.lanes[found->second];
       if (!lane.road_id.empty() && lane.road_id != road.id) {
-        roads_.add(lane.id, ": ", lane.road_id, " and ", road.id);
+        map_.faults.add(MapFault::kLaneOfTwoRoads, {lane.id, lane.road_id, road.id}, {lane.center.points().front()},
+                        lane.id, ": ", lane.road_id, " and ", road.id);
         continue;
       }
       if (lane.road_id.empty()) lanes.push_back(found->second);
@@ -252,7 +273,7 @@ void LaneResolver::addRoad(const RoadData& road) {
 }  // namespace
 
 void resolveLanes(MapData* data, const MapParams& params, MapContent* map) {
-  stretchPointLanes(data, &map->warnings);
+  stretchPointLanes(data, &map->faults);
   LaneResolver(data, map).run();
   mendNeighbours(map);
   addReverseLanes(params.max_link_gap, map);

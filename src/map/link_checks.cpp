@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "lane_checks.h"
-#include "worst_counter.h"
 
 namespace external_command {
 
@@ -52,8 +51,6 @@ class LinkCheck {
       checkLinksOf(static_cast<LaneIndex>(i));
       if (!map_.lanes[i].is_reversed) checkFolds(map_.lanes[i]);
     }
-    for (const WorstCounter* counter : {&broken_, &gaps_, &overlaps_, &kinks_, &folds_})
-      counter->report(&map_.warnings);
   }
 
  private:
@@ -84,14 +81,25 @@ class LinkCheck {
     const Lane &lane = map_.lanes[from], &next = map_.lanes[onto];
     if (lane.reverse && (leads(*lane.reverse, onto) || leads(onto, *lane.reverse))) return;
     if (next.reverse && (leads(from, *next.reverse) || leads(*next.reverse, from))) return;
-    broken_.add(gap, lane.id, " to ", next.id, ", ", metres(gap));
+    map_.faults.add(MapFault::kLinkBroken, {lane.id, next.id}, {lane.center.points().back(), gap}, lane.id, " to ",
+                    next.id, ", ", metres(gap));
     map_.broken_links.push_back({from, onto, gap});
   }
 
   void count(const Lane& lane, const Lane& next, const Joint& joint) {
-    if (joint.gap > kOddGap) gaps_.add(joint.gap, lane.id, " to ", next.id, ", ", metres(joint.gap));
-    if (joint.entry > kOddGap) overlaps_.add(joint.entry, lane.id, " and ", next.id, ", by ", metres(joint.entry));
-    if (joint.turn > kKink) kinks_.add(joint.turn, lane.id, " to ", next.id, ", by ", joint.turn, " rad");
+    const Point2d end = lane.center.points().back();
+    if (joint.gap > kOddGap) {
+      map_.faults.add(MapFault::kLinkGap, {lane.id, next.id}, {end, joint.gap}, lane.id, " to ", next.id, ", ",
+                      metres(joint.gap));
+    }
+    if (joint.entry > kOddGap) {
+      map_.faults.add(MapFault::kLinkOverlap, {lane.id, next.id}, {end, joint.entry}, lane.id, " and ", next.id,
+                      ", by ", metres(joint.entry));
+    }
+    if (joint.turn > kKink) {
+      map_.faults.add(MapFault::kLinkKink, {lane.id, next.id}, {end, joint.turn}, lane.id, " to ", next.id, ", by ",
+                      radians(joint.turn));
+    }
   }
 
   void checkFolds(const Lane& lane) {
@@ -100,17 +108,12 @@ class LinkCheck {
       const Point2d in = line[i] - line[i - 1], out = line[i + 1] - line[i];
       const double back = std::min(in.norm(), out.norm());
       if (back < kOddFold || std::abs(angleBetween(headingOf(in), headingOf(out))) < kFoldTurn) continue;
-      folds_.add(back, lane.id, " at ", at(line[i]), ", by ", metres(back));
+      map_.faults.add(MapFault::kFold, {lane.id}, {line[i], back}, lane.id, " at ", at(line[i]), ", by ", metres(back));
     }
   }
 
   const double max_gap_;
   MapContent& map_;
-  WorstCounter broken_{"links that are not driven, as their ends lie too far apart (map/max_link_gap)"};
-  WorstCounter gaps_{"links whose ends do not meet"};
-  WorstCounter overlaps_{"linked lanes that overlap"};
-  WorstCounter kinks_{"links at which the heading jumps"};
-  WorstCounter folds_{"places at which a centre line folds back on itself"};
 };
 
 }  // namespace

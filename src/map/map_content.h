@@ -8,16 +8,18 @@
 
 #include "external_command/map/hd_map.h"
 #include "lane_tree.h"
+#include "map_faults.h"
 
 namespace external_command {
 
 /// What an HdMap holds. The keys of the look-up tables are views of the objects' own ids, so a
 /// MapContent may be moved but not copied.
 struct MapContent {
-  MapContent() = default;
+  explicit MapContent(bool keeps_findings) : faults(keeps_findings) {}
   MapContent(MapContent&&) = default;
   MapContent& operator=(MapContent&&) = delete;
 
+  MapFaults faults;  ///< while it is resolved; `warnings` and `findings` hold what came of it
   std::string version;
   std::string projection;
   Point2d origin = Point2d::Zero();
@@ -28,6 +30,7 @@ struct MapContent {
   std::vector<ParkingSpace> parking_spaces;
   std::vector<Area> areas;
   std::vector<MapWarning> warnings;
+  std::vector<MapFinding> findings;
   std::vector<BrokenLink> broken_links;
   std::unordered_map<std::string, std::string> unusable_parking_spaces;  ///< why, by id
 

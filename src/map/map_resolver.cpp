@@ -49,22 +49,24 @@ BoundingBox boxOf(const MapContent& map) {
 
 MapContent resolve(MapData data, const Point2d& origin, const MapParams& params) {
   if (!origin.allFinite()) throw MapError("the map origin is not finite; give two coordinates in metres");
-  MapContent map;
+  MapContent map(params.keep_findings);
   map.version = std::move(data.version);
   map.projection = std::move(data.projection);
   map.origin = origin;
-  map.warnings = std::move(data.warnings);
   if (!origin.isZero(0.0)) shift(origin, &data);
   const std::size_t stated = data.lanes.size();
   resolveLanes(&data, params, &map);
   if (map.lanes.empty()) {
-    throw MapError(stated == 0 ? "the map has no lane in it"
-                               : text("none of the map's ", stated, " lanes can be used: ", map.warnings.back().what));
+    throw MapError(
+        stated == 0 ? "the map has no lane in it"
+                    : text("none of the map's ", stated, " lanes can be used: ", map.faults.warnings().front().what));
   }
   map.tree = LaneTree(map.lanes);
   countMissingNeighbours(&map);
   resolveObjects(&data, &map);
   map.box = boxOf(map);
+  map.warnings = map.faults.warnings();
+  map.findings = map.faults.takeFindings();
   return map;
 }
 

@@ -6,8 +6,6 @@
 
 #include "lane_checks.h"
 #include "lane_search.h"
-#include "warning_counter.h"
-#include "worst_counter.h"
 
 namespace external_command {
 
@@ -48,9 +46,6 @@ class NeighbourCheck {
 
   void run() {
     for (std::size_t i = 0; i < map_.lanes.size(); ++i) mend(static_cast<LaneIndex>(i));
-    swapped_.report(&map_.warnings);
-    oncoming_.report(&map_.warnings);
-    far_.report(&map_.warnings);
   }
 
  private:
@@ -74,17 +69,20 @@ class NeighbourCheck {
       beside = besideOf(other.center, lane.center);
       beside.l = -beside.l;
     }
+    const Point2d middle = lane.center.pointAt(lane.length() / 2.0);
     if (beside.distance > kMaxDistance) {
-      far_.add(beside.distance, other.id, " of ", lane.id, ", ", metres(beside.distance), " off");
+      map_.faults.add(MapFault::kNeighbourFar, {lane.id, other.id}, {middle, beside.distance}, other.id, " of ",
+                      lane.id, ", ", metres(beside.distance), " off");
       return std::nullopt;
     }
     if (beside.turn > M_PI / 2.0) {
-      oncoming_.add(other.id, " of ", lane.id);
+      map_.faults.add(MapFault::kNeighbourOncoming, {lane.id, other.id}, {middle}, other.id, " of ", lane.id);
       return std::nullopt;
     }
     const bool lies_left = std::abs(beside.l) < kClearlyBeside ? stated_left : beside.l > 0.0;
     if (lies_left != stated_left) {
-      swapped_.add(other.id, ", stated as the ", stated_left ? "left" : "right", " neighbour of ", lane.id);
+      map_.faults.add(MapFault::kNeighbourWrongSide, {lane.id, other.id}, {middle}, other.id, ", stated as the ",
+                      stated_left ? "left" : "right", " neighbour of ", lane.id);
     }
     return lies_left;
   }
@@ -94,9 +92,6 @@ class NeighbourCheck {
   }
 
   MapContent& map_;
-  WarningCounter swapped_{"neighbours on the other side than the map states; they count where they lie"};
-  WarningCounter oncoming_{"forward neighbours that run the other way; no lane changes to them"};
-  WorstCounter far_{"forward neighbours too far off for a lane change"};
 };
 
 bool hasForwardNeighbour(const Lane& lane) {
@@ -122,14 +117,12 @@ void mendNeighbours(MapContent* map) { NeighbourCheck(map).run(); }
 /// They are not derived: where a file names none for any lane, nothing says which lines may be crossed.
 void countMissingNeighbours(MapContent* map) {
   if (std::any_of(map->lanes.begin(), map->lanes.end(), hasForwardNeighbour)) return;
-  WarningCounter missing(
-      "driving lanes with another beside them, but no lane of the map has a neighbour: no lane changes");
   for (LaneIndex index = 0; index < map->lanes.size(); ++index) {
     const Lane& lane = map->lanes[index];
     const auto is_beside = [&](double share) { return hasLaneBeside(*map, index, share * lane.length()); };
-    if (lane.isDrivable() && is_beside(0.25) && is_beside(0.5) && is_beside(0.75)) missing.add(lane.id);
+    if (!lane.isDrivable() || !is_beside(0.25) || !is_beside(0.5) || !is_beside(0.75)) continue;
+    map->faults.add(MapFault::kNeighboursMissing, {lane.id}, {lane.center.pointAt(lane.length() / 2.0)}, lane.id);
   }
-  missing.report(&map->warnings);
 }
 
 }  // namespace external_command

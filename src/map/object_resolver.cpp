@@ -9,11 +9,15 @@
 #include "external_command/core/text.h"
 #include "map_resolver.h"
 #include "parking_heading.h"
-#include "warning_counter.h"
 
 namespace external_command {
 
 namespace {
+
+FaultPlace firstOf(const std::vector<Point2d>& points) {
+  const bool has_place = !points.empty() && isPlausible(points.front());
+  return {has_place ? std::optional<Point2d>(points.front()) : std::nullopt};
+}
 
 /// Junctions, parking spaces and areas, and the lanes that overlap them.
 class ObjectResolver {
@@ -28,10 +32,6 @@ class ObjectResolver {
     for (const ParkingSpaceData& space : data_.parking_spaces) addParkingSpace(space);
     map_.areas.reserve(data_.areas.size());
     for (const AreaData& area : data_.areas) addArea(area);
-    for (const WarningCounter* counter : {&polygons_, &crossed_, &repeated_, &dangling_, &ranges_, &no_lanes_,
-                                          &no_heading_, &degrees_, &bad_heading_}) {
-      counter->report(&map_.warnings);
-    }
   }
 
  private:
@@ -39,7 +39,7 @@ class ObjectResolver {
   void addJunction(const JunctionData& junction);
   void addParkingSpace(const ParkingSpaceData& space);
   void addArea(const AreaData& area);
-  std::optional<Polygon> polygonOf(const std::vector<Point2d>& points, const std::string& name);
+  std::optional<Polygon> polygonOf(const std::vector<Point2d>& points, const char* kind, const std::string& id);
   double headingOf(const ParkingSpaceData& space, const Polygon& polygon);
   std::vector<LaneOverlap> lanesOf(const std::string& id, const std::vector<std::string>& overlap_ids);
   void addLanesOf(const OverlapData& overlap, std::vector<LaneOverlap>* lanes);
@@ -50,15 +50,6 @@ class ObjectResolver {
   std::string why_not_;  ///< the last polygon cannot be used
   std::unordered_map<std::string_view, const OverlapData*> overlap_by_id_;
   std::unordered_map<std::string_view, std::vector<const OverlapData*>> overlaps_by_object_;  // lanes left out
-  WarningCounter polygons_{"map objects dropped whose polygon cannot be used"};
-  WarningCounter crossed_{"parking spaces whose corners are in crossed order, which was put right"};
-  WarningCounter repeated_{"parking spaces and areas dropped whose id is empty or an earlier one's"};
-  WarningCounter dangling_{"references to overlaps, or of overlaps to lanes, that do not exist"};
-  WarningCounter ranges_{"overlaps without a usable range on their lane, all of which is taken"};
-  WarningCounter no_lanes_{"parking spaces that no lane overlaps; the lanes to park from are found by distance"};
-  WarningCounter no_heading_{"parking spaces without a heading, which was derived from their shape"};
-  WarningCounter degrees_{"parking spaces whose heading is in degrees, and was taken as such"};
-  WarningCounter bad_heading_{"parking spaces whose stated heading lies across them; it was derived from their shape"};
 };
 
 void ObjectResolver::indexOverlaps() {
@@ -70,11 +61,12 @@ void ObjectResolver::indexOverlaps() {
   }
 }
 
-std::optional<Polygon> ObjectResolver::polygonOf(const std::vector<Point2d>& points, const std::string& name) {
+std::optional<Polygon> ObjectResolver::polygonOf(const std::vector<Point2d>& points, const char* kind,
+                                                 const std::string& id) {
   try {
-    return Polygon(points, name);
+    return Polygon(points, text(kind, " ", id));
   } catch (const InvalidRequest& error) {
-    polygons_.add(error.what());
+    map_.faults.add(MapFault::kPolygonUnusable, {id}, firstOf(points), error.what());
     why_not_ = error.what();
     return std::nullopt;
   }
@@ -82,7 +74,7 @@ std::optional<Polygon> ObjectResolver::polygonOf(const std::vector<Point2d>& poi
 
 /// A lane is inside a junction by an overlap that takes at least half of it.
 void ObjectResolver::addJunction(const JunctionData& junction) {
-  if (auto polygon = polygonOf(junction.polygon, "junction " + junction.id)) {
+  if (auto polygon = polygonOf(junction.polygon, "junction", junction.id)) {
     map_.junctions.push_back({junction.id, *std::move(polygon)});
   }
   for (const LaneOverlap& overlap : lanesOf(junction.id, {})) {
@@ -95,37 +87,46 @@ void ObjectResolver::addJunction(const JunctionData& junction) {
 
 void ObjectResolver::addParkingSpace(const ParkingSpaceData& space) {
   if (space.id.empty() || map_.parking_space_by_id.count(space.id) > 0) {
-    return repeated_.add("parking space \"", space.id, "\"");
+    map_.faults.add(MapFault::kObjectIdRepeated, {space.id}, firstOf(space.polygon), "parking space \"", space.id,
+                    "\"");
+    return;
   }
   std::vector<Point2d> corners = space.polygon;
-  if (putInOrder(&corners)) crossed_.add(space.id);
-  const auto polygon = polygonOf(corners, "parking space " + space.id);
+  if (putInOrder(&corners)) map_.faults.add(MapFault::kCornersCrossed, {space.id}, firstOf(corners), space.id);
+  const auto polygon = polygonOf(corners, "parking space", space.id);
   if (!polygon) {
     map_.unusable_parking_spaces.emplace(space.id, why_not_);
     return;
   }
   std::vector<LaneOverlap> lanes = lanesOf(space.id, space.overlaps);
-  if (lanes.empty()) no_lanes_.add(space.id);
+  if (lanes.empty()) map_.faults.add(MapFault::kSpaceWithoutOverlap, {space.id}, firstOf(corners), space.id);
   map_.parking_spaces.push_back({space.id, *polygon, headingOf(space, *polygon), std::move(lanes)});
   map_.parking_space_by_id.emplace(map_.parking_spaces.back().id, map_.parking_spaces.size() - 1);
 }
 
 double ObjectResolver::headingOf(const ParkingSpaceData& space, const Polygon& polygon) {
   if (!space.has_heading || !std::isfinite(space.heading)) {
-    no_heading_.add(space.id);
+    map_.faults.add(MapFault::kSpaceHeadingMissing, {space.id}, firstOf(polygon.points()), space.id);
     return derivedParkingHeading(map_, polygon);
   }
   const bool in_degrees = isInDegrees(polygon, space.heading);
-  if (in_degrees) degrees_.add(space.id, ": ", space.heading);
+  if (in_degrees) {
+    map_.faults.add(MapFault::kSpaceHeadingInDegrees, {space.id}, firstOf(polygon.points()), space.id, ": ",
+                    space.heading);
+  }
   const double heading = normalizeAngle(in_degrees ? space.heading * M_PI / 180.0 : space.heading);
   if (fitsParkingSpace(polygon, heading)) return heading;
-  bad_heading_.add(space.id, ": ", radians(heading));
+  map_.faults.add(MapFault::kSpaceHeadingAcross, {space.id}, firstOf(polygon.points()), space.id, ": ",
+                  radians(heading));
   return derivedParkingHeading(map_, polygon);
 }
 
 void ObjectResolver::addArea(const AreaData& area) {
-  if (area.id.empty() || map_.area_by_id.count(area.id) > 0) return repeated_.add("area \"", area.id, "\"");
-  auto polygon = polygonOf(area.polygon, "area " + area.id);
+  if (area.id.empty() || map_.area_by_id.count(area.id) > 0) {
+    map_.faults.add(MapFault::kObjectIdRepeated, {area.id}, firstOf(area.polygon), "area \"", area.id, "\"");
+    return;
+  }
+  auto polygon = polygonOf(area.polygon, "area", area.id);
   if (!polygon) return;
   map_.areas.push_back({area.id, area.name, *std::move(polygon), lanesOf(area.id, area.overlaps)});
   map_.area_by_id.emplace(map_.areas.back().id, map_.areas.size() - 1);
@@ -137,7 +138,7 @@ std::vector<LaneOverlap> ObjectResolver::lanesOf(const std::string& id, const st
   for (const std::string& overlap_id : overlap_ids) {
     const auto found = overlap_by_id_.find(overlap_id);
     if (found == overlap_by_id_.end()) {
-      dangling_.add("overlap ", overlap_id, " of ", id);
+      map_.faults.add(MapFault::kOverlapDangling, {id, overlap_id}, {}, "overlap ", overlap_id, " of ", id);
     } else {
       addLanesOf(*found->second, &lanes);
     }
@@ -154,7 +155,8 @@ void ObjectResolver::addLanesOf(const OverlapData& overlap, std::vector<LaneOver
     if (!object.is_lane) continue;
     const auto found = map_.lane_by_id.find(object.id);
     if (found == map_.lane_by_id.end()) {
-      dangling_.add("lane ", object.id, " of overlap ", overlap.id);
+      map_.faults.add(MapFault::kOverlapDangling, {overlap.id, object.id}, {}, "lane ", object.id, " of overlap ",
+                      overlap.id);
     } else {
       const LaneOverlap range = rangeOn(found->second, object);
       lanes->push_back(range);
@@ -167,7 +169,8 @@ void ObjectResolver::addLanesOf(const OverlapData& overlap, std::vector<LaneOver
 LaneOverlap ObjectResolver::rangeOn(LaneIndex lane, const OverlapObject& object) {
   const double length = map_.lanes[lane].length();
   if (!(object.start_s <= object.end_s && std::isfinite(object.start_s) && std::isfinite(object.end_s))) {
-    ranges_.add("lane ", object.id, ": s ", object.start_s, " to ", object.end_s);
+    map_.faults.add(MapFault::kOverlapRangeUnusable, {object.id}, {map_.lanes[lane].center.points().front()}, "lane ",
+                    object.id, ": s ", object.start_s, " to ", object.end_s);
     return {lane, 0.0, length};
   }
   return {lane, std::clamp(object.start_s, 0.0, length), std::clamp(object.end_s, 0.0, length)};

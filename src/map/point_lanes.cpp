@@ -5,7 +5,6 @@
 #include <unordered_map>
 
 #include "lane_checks.h"
-#include "warning_counter.h"
 
 namespace external_command {
 
@@ -21,7 +20,7 @@ bool isPoint(const std::vector<Point2d>& line) {
 
 class PointLanes {
  public:
-  explicit PointLanes(MapData* data) : data_(*data) {
+  PointLanes(MapData* data, MapFaults* faults) : data_(*data), faults_(*faults) {
     for (LaneData& lane : data_.lanes) lane_by_id_.emplace(lane.id, &lane);
   }
 
@@ -30,10 +29,8 @@ class PointLanes {
     const Point2d ahead = unitVector(headingThrough(*lane));
     lane->center = {middle - kHalfLength * ahead, middle + kHalfLength * ahead};
     lane->heights.resize(lane->heights.empty() ? 0 : 2);
-    stretched_.add(lane->id);
+    faults_.add(MapFault::kLaneWithoutLength, {lane->id}, {middle}, lane->id);
   }
-
-  void report(std::vector<MapWarning>* warnings) const { stretched_.report(warnings); }
 
  private:
   /// In which the lanes before it end, else in which those after it begin.
@@ -66,13 +63,13 @@ class PointLanes {
   }
 
   MapData& data_;
+  MapFaults& faults_;
   std::unordered_map<std::string_view, const LaneData*> lane_by_id_;
-  WarningCounter stretched_{"lanes of no length, which keep their links"};
 };
 
 }  // namespace
 
-void stretchPointLanes(MapData* data, std::vector<MapWarning>* warnings) {
+void stretchPointLanes(MapData* data, MapFaults* faults) {
   std::vector<LaneData*> points;
   for (LaneData& lane : data->lanes) {
     const bool is_usable = std::all_of(lane.center.begin(), lane.center.end(), isPlausible);
@@ -80,9 +77,8 @@ void stretchPointLanes(MapData* data, std::vector<MapWarning>* warnings) {
     if (is_usable && connects && isPoint(lane.center)) points.push_back(&lane);
   }
   if (points.empty()) return;
-  PointLanes lanes(data);
+  PointLanes lanes(data, faults);
   for (LaneData* lane : points) lanes.stretch(lane);
-  lanes.report(warnings);
 }
 
 }  // namespace external_command

@@ -156,12 +156,6 @@ void ProtoConverter::add(const proto::Map& part) {
   }
 }
 
-MapData ProtoConverter::take() {
-  unknown_types_.report(&data_.warnings);
-  no_types_.report(&data_.warnings);
-  return std::move(data_);
-}
-
 void ProtoConverter::addLane(const proto::Lane& message) {
   data_.lanes.emplace_back();
   LaneData& lane = data_.lanes.back();
@@ -174,7 +168,14 @@ void ProtoConverter::addLane(const proto::Lane& message) {
   lane.right_widths = widthsOf(message.right_sample());
   lane.length = message.length();
   lane.speed_limit = message.speed_limit();
-  lane.type = laneTypeOf(message);
+  if (message.has_type()) {
+    lane.type = typeOf(message.type());
+  } else if (hasUnknownType(message)) {
+    lane.type = LaneType::kNone;
+    lane.type_statement = TypeStatement::kUnknown;
+  } else {
+    lane.type_statement = TypeStatement::kMissing;
+  }
   lane.turn = turnOf(message);
   lane.direction = directionOf(message);
   lane.predecessors = textsOf(message.predecessor_id());
@@ -185,16 +186,6 @@ void ProtoConverter::addLane(const proto::Lane& message) {
   lane.right_reverse = textsOf(message.right_neighbor_reverse_lane_id());
   lane.overlaps = textsOf(message.overlap_id());
   lane.junction = message.junction_id().id();
-}
-
-LaneType ProtoConverter::laneTypeOf(const proto::Lane& message) {
-  if (message.has_type()) return typeOf(message.type());
-  if (hasUnknownType(message)) {
-    unknown_types_.add(message.id().id());
-    return LaneType::kNone;
-  }
-  no_types_.add(message.id().id());
-  return LaneType::kCityDriving;
 }
 
 void ProtoConverter::addRoad(const proto::Road& message) {

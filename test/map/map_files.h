@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "external_command/map/map_data.h"
+#include "external_command/map/map_fault.h"
 
 namespace external_command {
 

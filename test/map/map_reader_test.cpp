@@ -172,7 +172,7 @@ TEST(MapReader, TakesAnUnsetTypeForADrivingLaneAndSaysSo) {
   map.mutable_lane(0)->clear_type();
   const MapData data = read(map.SerializeAsString());
   EXPECT_EQ(data.lanes[0].type, LaneType::kCityDriving);
-  EXPECT_TRUE(warnsOf(data.warnings, 1, "lanes without a type"));
+  EXPECT_TRUE(warnsOf(HdMap(data, Point2d::Zero()).warnings(), 1, "lanes without a type"));
 }
 
 TEST(MapReader, DoesNotDriveOnALaneOfAnUnknownType) {
@@ -181,7 +181,7 @@ TEST(MapReader, DoesNotDriveOnALaneOfAnUnknownType) {
   map.mutable_lane(0)->mutable_unknown_fields()->AddVarint(proto::Lane::kTypeFieldNumber, 77);
   const MapData data = read(map.SerializeAsString());
   EXPECT_EQ(data.lanes[0].type, LaneType::kNone);
-  EXPECT_TRUE(warnsOf(data.warnings, 1, "lanes of a type that is not known"));
+  EXPECT_TRUE(warnsOf(HdMap(data, Point2d::Zero()).warnings(), 1, "lanes of a type that is not known"));
 }
 
 TEST(MapReader, PassesOverObjectsAndFieldsItDoesNotKnow) {

@@ -10,6 +10,7 @@
 #include "external_command/core/polygon.h"
 #include "external_command/core/polyline.h"
 #include "external_command/map/map_data.h"
+#include "external_command/map/map_fault.h"
 
 namespace external_command {
 
@@ -74,7 +75,8 @@ struct BrokenLink {
 };
 
 struct MapParams {
-  double max_link_gap = 2.0;  ///< links whose ends lie further apart are not driven [m]
+  double max_link_gap = 2.0;   ///< links whose ends lie further apart are not driven [m]
+  bool keep_findings = false;  ///< findings() tells each fault, not only how many there are of a kind
 
   /// @throws InvalidParameter  out of range.
   void validate() const;
@@ -165,6 +167,7 @@ class HdMap {
   const std::vector<ParkingSpace>& parkingSpaces() const;
   const std::vector<Area>& areas() const;
   const std::vector<MapWarning>& warnings() const;
+  const std::vector<MapFinding>& findings() const;  ///< empty without MapParams::keep_findings
   const std::vector<BrokenLink>& brokenLinks() const;
 
   /// In the direction of its centre line.

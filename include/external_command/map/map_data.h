@@ -10,6 +10,7 @@
 namespace external_command {
 
 enum class LaneType { kNone, kCityDriving, kBiking, kSidewalk, kParking, kShoulder, kShared };
+enum class TypeStatement { kKnown, kUnknown, kMissing };
 enum class LaneTurn { kNoTurn, kLeft, kRight, kUTurn };
 enum class LaneDirection { kForward, kBackward, kBidirection };
 enum class BoundaryType { kUnknown, kDottedYellow, kDottedWhite, kSolidYellow, kSolidWhite, kDoubleYellow, kCurb };
@@ -52,9 +53,10 @@ struct LaneData {
   std::vector<float> heights;  ///< of the points of `center` [m]; empty where the file gives none
   LaneBoundary left, right;
   std::vector<WidthSample> left_widths, right_widths;
-  double length = 0.0;       ///< as stated; the centre line's own length is what counts
-  double speed_limit = 0.0;  ///< [m/s], 0 where not given
-  LaneType type = LaneType::kCityDriving;
+  double length = 0.0;                     ///< as stated; the centre line's own length is what counts
+  double speed_limit = 0.0;                ///< [m/s], 0 where not given
+  LaneType type = LaneType::kCityDriving;  ///< kNone where the stated one is unknown
+  TypeStatement type_statement = TypeStatement::kKnown;
   LaneTurn turn = LaneTurn::kNoTurn;
   LaneDirection direction = LaneDirection::kForward;
   std::vector<std::string> predecessors, successors;
@@ -94,12 +96,6 @@ struct AreaData {
   std::vector<std::string> overlaps;
 };
 
-/// What was wrong with a map file but could be lived with: how many, and an example.
-struct MapWarning {
-  std::string what;  ///< "3 references to lanes that do not exist, e.g. successor road_1_lane_9 of road_1_lane_2"
-  std::size_t count = 0;
-};
-
 /// A map as a file states it, before anything is resolved or checked. What every reader produces, and tests build.
 struct MapData {
   std::string version;
@@ -110,7 +106,6 @@ struct MapData {
   std::vector<ParkingSpaceData> parking_spaces;
   std::vector<AreaData> areas;
   std::vector<OverlapData> overlaps;
-  std::vector<MapWarning> warnings;  ///< what the reader passed over
 };
 
 }  // namespace external_command
