@@ -19,12 +19,12 @@ EC_DEBIAN_RUN_PACKAGES=(
   python3-genpy python3-rosbag python3-rosgraph python3-roslaunch python3-roslib python3-rospy python3-rosservice
   python3-actionlib python3-actionlib-msgs python3-diagnostic-msgs python3-move-base-msgs
   python3-tf2-ros python3-geometry-msgs python3-nav-msgs python3-std-msgs python3-visualization-msgs
-  python3-protobuf
+  python3-argcomplete python3-protobuf python3-yaml
   netbase  # makes /etc/hosts where there is none, as in a bare chroot: ROS needs the name localhost
 )
 EC_DEBIAN_TEST_PACKAGES=(
   catkin-lint libgtest-dev librostest-dev python3-rostest
-  python3-numpy python3-rosnode python3-rosparam python3-rospkg python3-rostopic python3-yaml
+  python3-numpy python3-rosnode python3-rosparam python3-rospkg python3-rostopic
   rviz  # what demo.launch starts
 )
 # A picture of rviz: a display for where there is none, and what takes the screenshot.
@@ -40,12 +40,12 @@ EC_NOETIC_BUILD_PACKAGES=(
   ros-noetic-tf2-geometry-msgs ros-noetic-tf2-msgs ros-noetic-visualization-msgs
 )
 EC_NOETIC_RUN_PACKAGES=(
-  python3-protobuf
+  python3-argcomplete python3-protobuf python3-yaml
   ros-noetic-genpy ros-noetic-message-runtime ros-noetic-rosbag ros-noetic-rosbash ros-noetic-rosgraph
   ros-noetic-roslaunch ros-noetic-roslib ros-noetic-rospy ros-noetic-rosservice ros-noetic-tf2-ros
 )
 EC_NOETIC_TEST_PACKAGES=(
-  libgtest-dev python3-catkin-lint python3-numpy python3-rospkg python3-yaml
+  libgtest-dev python3-catkin-lint python3-numpy python3-rospkg
   ros-noetic-rosnode ros-noetic-rosparam ros-noetic-rostest ros-noetic-rostopic ros-noetic-rviz
 )
 

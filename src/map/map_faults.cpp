@@ -14,10 +14,4 @@ std::vector<MapWarning> MapFaults::warnings() const {
   return warnings;
 }
 
-void MapFaults::keep(MapFault fault, std::initializer_list<std::string_view> ids, const FaultPlace& place,
-                     std::string what) {
-  findings_.push_back(
-      {fault, kindOf(fault).severity, {ids.begin(), ids.end()}, place.point, place.size, std::move(what)});
-}
-
 }  // namespace external_command

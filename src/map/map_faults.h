@@ -28,15 +28,12 @@ class MapFaults {
   template <class... Args>
   void add(MapFault fault, std::initializer_list<std::string_view> ids, const FaultPlace& place,
            const Args&... example) {
-    Count& count = counts_[static_cast<std::size_t>(fault)];
-    const bool is_example = count.count++ == 0 || place.size > count.worst;
-    if (!is_example && !keeps_all_) return;
-    std::string what = text(example...);
-    if (is_example) {
-      count.example = what;
-      count.worst = place.size;
-    }
-    if (keeps_all_) keep(fault, ids, place, std::move(what));
+    addOne(fault, ids, place, example...);
+  }
+
+  template <class... Args>
+  void add(MapFault fault, const std::vector<std::string>& ids, const FaultPlace& place, const Args&... example) {
+    addOne(fault, ids, place, example...);
   }
 
   /// One for each kind that there is, in the order of MapFault.
@@ -52,7 +49,20 @@ class MapFaults {
     std::string example;
   };
 
-  void keep(MapFault fault, std::initializer_list<std::string_view> ids, const FaultPlace& place, std::string what);
+  template <class Ids, class... Args>
+  void addOne(MapFault fault, const Ids& ids, const FaultPlace& place, const Args&... example) {
+    Count& count = counts_[static_cast<std::size_t>(fault)];
+    const bool is_example = count.count++ == 0 || place.size > count.worst;
+    if (!is_example && !keeps_all_) return;
+    std::string what = text(example...);
+    if (is_example) {
+      count.example = what;
+      count.worst = place.size;
+    }
+    if (!keeps_all_) return;
+    const FaultSeverity severity = kindOf(fault).severity;
+    findings_.push_back({fault, severity, {ids.begin(), ids.end()}, place.point, place.size, std::move(what)});
+  }
 
   bool keeps_all_;
   std::vector<Count> counts_;

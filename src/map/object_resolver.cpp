@@ -14,9 +14,12 @@ namespace external_command {
 
 namespace {
 
-FaultPlace firstOf(const std::vector<Point2d>& points) {
-  const bool has_place = !points.empty() && isPlausible(points.front());
-  return {has_place ? std::optional<Point2d>(points.front()) : std::nullopt};
+/// Where a fault of an object is told to lie.
+FaultPlace middleOf(const std::vector<Point2d>& points) {
+  if (points.empty() || !std::all_of(points.begin(), points.end(), isPlausible)) return {};
+  Point2d sum = Point2d::Zero();
+  for (const Point2d& point : points) sum += point;
+  return {sum / static_cast<double>(points.size())};
 }
 
 /// Junctions, parking spaces and areas, and the lanes that overlap them.
@@ -66,7 +69,7 @@ std::optional<Polygon> ObjectResolver::polygonOf(const std::vector<Point2d>& poi
   try {
     return Polygon(points, text(kind, " ", id));
   } catch (const InvalidRequest& error) {
-    map_.faults.add(MapFault::kPolygonUnusable, {id}, firstOf(points), error.what());
+    map_.faults.add(MapFault::kPolygonUnusable, {id}, middleOf(points), error.what());
     why_not_ = error.what();
     return std::nullopt;
   }
@@ -87,43 +90,43 @@ void ObjectResolver::addJunction(const JunctionData& junction) {
 
 void ObjectResolver::addParkingSpace(const ParkingSpaceData& space) {
   if (space.id.empty() || map_.parking_space_by_id.count(space.id) > 0) {
-    map_.faults.add(MapFault::kObjectIdRepeated, {space.id}, firstOf(space.polygon), "parking space \"", space.id,
+    map_.faults.add(MapFault::kObjectIdRepeated, {space.id}, middleOf(space.polygon), "parking space \"", space.id,
                     "\"");
     return;
   }
   std::vector<Point2d> corners = space.polygon;
-  if (putInOrder(&corners)) map_.faults.add(MapFault::kCornersCrossed, {space.id}, firstOf(corners), space.id);
+  if (putInOrder(&corners)) map_.faults.add(MapFault::kCornersCrossed, {space.id}, middleOf(corners), space.id);
   const auto polygon = polygonOf(corners, "parking space", space.id);
   if (!polygon) {
     map_.unusable_parking_spaces.emplace(space.id, why_not_);
     return;
   }
   std::vector<LaneOverlap> lanes = lanesOf(space.id, space.overlaps);
-  if (lanes.empty()) map_.faults.add(MapFault::kSpaceWithoutOverlap, {space.id}, firstOf(corners), space.id);
+  if (lanes.empty()) map_.faults.add(MapFault::kSpaceWithoutOverlap, {space.id}, middleOf(corners), space.id);
   map_.parking_spaces.push_back({space.id, *polygon, headingOf(space, *polygon), std::move(lanes)});
   map_.parking_space_by_id.emplace(map_.parking_spaces.back().id, map_.parking_spaces.size() - 1);
 }
 
 double ObjectResolver::headingOf(const ParkingSpaceData& space, const Polygon& polygon) {
   if (!space.has_heading || !std::isfinite(space.heading)) {
-    map_.faults.add(MapFault::kSpaceHeadingMissing, {space.id}, firstOf(polygon.points()), space.id);
+    map_.faults.add(MapFault::kSpaceHeadingMissing, {space.id}, middleOf(polygon.points()), space.id);
     return derivedParkingHeading(map_, polygon);
   }
   const bool in_degrees = isInDegrees(polygon, space.heading);
   if (in_degrees) {
-    map_.faults.add(MapFault::kSpaceHeadingInDegrees, {space.id}, firstOf(polygon.points()), space.id, ": ",
+    map_.faults.add(MapFault::kSpaceHeadingInDegrees, {space.id}, middleOf(polygon.points()), space.id, ": ",
                     space.heading);
   }
   const double heading = normalizeAngle(in_degrees ? space.heading * M_PI / 180.0 : space.heading);
   if (fitsParkingSpace(polygon, heading)) return heading;
-  map_.faults.add(MapFault::kSpaceHeadingAcross, {space.id}, firstOf(polygon.points()), space.id, ": ",
+  map_.faults.add(MapFault::kSpaceHeadingAcross, {space.id}, middleOf(polygon.points()), space.id, ": ",
                   radians(heading));
   return derivedParkingHeading(map_, polygon);
 }
 
 void ObjectResolver::addArea(const AreaData& area) {
   if (area.id.empty() || map_.area_by_id.count(area.id) > 0) {
-    map_.faults.add(MapFault::kObjectIdRepeated, {area.id}, firstOf(area.polygon), "area \"", area.id, "\"");
+    map_.faults.add(MapFault::kObjectIdRepeated, {area.id}, middleOf(area.polygon), "area \"", area.id, "\"");
     return;
   }
   auto polygon = polygonOf(area.polygon, "area", area.id);
