@@ -12,11 +12,13 @@ namespace external_command {
 
 namespace {
 
-constexpr double kFrame = 0.03;          // around the map, of its longer side
-constexpr double kPixels = 1600.0;       // of the longer side
-constexpr double kMark = 0.004;          // radius, of the longer side
-constexpr double kLeastMark = 1.0;       // radius [m]
-constexpr std::size_t kLongest = 10000;  // text of a mark [bytes]
+constexpr double kFrame = 0.03;           // around the map, of its longer side
+constexpr double kPixels = 1600.0;        // of the longer side
+constexpr double kMark = 0.004;           // radius, of the longer side
+constexpr double kLeastMark = 1.0;        // radius [m]
+constexpr double kFinest = 1.0 / 4000.0;  // between points of a line, of the longer side
+constexpr double kShowsCentres = 4000.0;  // side of a map on which centre lines can be told from lanes [m]
+constexpr std::size_t kLongest = 10000;   // text of a mark [bytes]
 
 const char* colourOf(FaultSeverity severity) { return severity == FaultSeverity::kError ? "#d01010" : "#f09000"; }
 
@@ -74,7 +76,7 @@ class Drawing {
   }
 
   void centre(const Lane& lane) {
-    if (lane.isDrivable()) line(lane, "#8090a8", std::max(0.15, side_ / 6000.0));
+    if (lane.isDrivable() && side_ < kShowsCentres) line(lane, "#8090a8", std::max(0.15, side_ / 6000.0));
   }
 
   void mark(const MapFinding& finding) {
@@ -90,9 +92,15 @@ class Drawing {
   void end() { out_ << "</svg>\n"; }
 
  private:
+  /// Without points that nobody could tell apart.
   void line(const Lane& lane, const char* colour, double width) {
+    std::vector<Point2d> shown{lane.center.points().front()};
+    for (const Point2d& point : lane.center.points()) {
+      if ((point - shown.back()).norm() > kFinest * side_) shown.push_back(point);
+    }
+    shown.push_back(lane.center.points().back());
     out_ << "<polyline fill=\"none\" stroke=\"" << colour << "\" stroke-width=\"" << width << "\" points=\"";
-    write(lane.center.points());
+    write(shown);
     out_ << "\"/>\n";
   }
 
