@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "external_command/core/path_progress.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -15,7 +16,7 @@ constexpr double kHeadingWeight = 2.0;  // of a radian, as distance [m]
 
 }  // namespace
 
-PathProgress::PathProgress(std::shared_ptr<const Path> path) : path_(std::move(path)) {}
+PathProgress::PathProgress(std::shared_ptr<const Path> path) : path_(std::move(path)), along_(path_->front().s) {}
 
 void PathProgress::update(const Pose2d& vehicle, double now) {
   const Path& path = *path_;
@@ -31,7 +32,19 @@ void PathProgress::update(const Pose2d& vehicle, double now) {
     }
   }
   reached_ = nearest;
+  if (best < kFarthest) along_ = std::max(along_, alongBeside(vehicle));
   if (best < kFarthest || !counted_) counted_ = now;
+}
+
+/// Of a vehicle beside the point that was reached, between that before it and that behind it.
+double PathProgress::alongBeside(const Pose2d& vehicle) const {
+  const Path& path = *path_;
+  const ReferencePoint& point = path[reached_];
+  const double gear = point.direction == Direction::kForward ? 1.0 : -1.0;
+  const double ahead = gear * unitVector(point.heading).dot(vehicle.position() - point.pose().position());
+  const double before = path[reached_ > 0 ? reached_ - 1 : 0].s;
+  const double behind = path[std::min(reached_ + 1, path.size() - 1)].s;
+  return std::clamp(point.s + ahead, before, behind);
 }
 
 }  // namespace external_command

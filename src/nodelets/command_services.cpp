@@ -28,6 +28,9 @@ CommandServices::CommandServices(const ros::NodeHandle& nh, const ParameterReade
       "command_status_service_name", "external_command/command_status", &status_lane_,
       {[this](const auto& request, const MessageSize&, const ros::M_string&) { return status(request); },
        [](const ros::M_string&) { return refusal<GetCommandStatus::Response>(); }});
+  serve<GetCurrentCommand>("current_command_service_name", "external_command/current_command", &status_lane_,
+                           {[this](const auto&, const MessageSize&, const ros::M_string&) { return current(); },
+                            [](const ros::M_string&) { return GetCurrentCommand::Response(); }});
   serve<CancelCommand>(
       "cancel_command_service_name", "external_command/cancel_command", &cancel_lane_,
       {[this](const auto& request, const MessageSize&, const ros::M_string& header) { return cancel(request, header); },
@@ -54,6 +57,16 @@ void CommandServices::serve(const std::string& key, std::string name, DedicatedL
 GetCommandStatus::Response CommandServices::status(const GetCommandStatus::Request& request) const {
   GetCommandStatus::Response response;
   response.status = context_->registry().find(request.command_id);
+  return response;
+}
+
+GetCurrentCommand::Response CommandServices::current() const {
+  GetCurrentCommand::Response response;
+  const std::optional<CommandStatus> motion = context_->registry().statusOf(context_->gate().lastMotion());
+  response.motion = motion ? *motion
+                           : makeStatus(0, CommandStatus::UNKNOWN, ErrorCode::kUnknownId,
+                                        "no motion command was sent yet, or it is long forgotten");
+  response.running = context_->registry().running();
   return response;
 }
 

@@ -9,12 +9,14 @@
 
 #include "external_command/CancelCommand.h"
 #include "external_command/GetCommandStatus.h"
+#include "external_command/GetCurrentCommand.h"
 #include "external_command/ros/bounded_service.h"
 #include "external_command/ros/process_context.h"
 
 namespace external_command {
 
-/// The services about commands of all processors: their statuses, and to cancel one. None waits for what is planned.
+/// The services about commands of all processors: their statuses, what runs, and to cancel one. None waits for what is
+/// planned.
 class CommandServices {
  public:
   /// @throws InvalidParameter  @throws InternalError  this process has one of the services already.
@@ -28,6 +30,7 @@ class CommandServices {
   void serve(const std::string& key, std::string name, DedicatedLane* lane, BoundedServiceCallbacks<Service> callbacks);
 
   GetCommandStatus::Response status(const GetCommandStatus::Request& request) const;
+  GetCurrentCommand::Response current() const;
   CancelCommand::Response cancel(const CancelCommand::Request& request, const ros::M_string& header);
 
   ros::NodeHandle nh_;

@@ -61,6 +61,7 @@ std::shared_ptr<const SentMotion> CommandGate::commit(const Ticket& ticket, std:
   requireNewestLocked(ticket.command_);
   ticket.cancelToken().throwIfCancelled();
   publish();
+  last_motion_ = ticket.command_.serial;
   motion_.swap(motion);
   return motion;
 }
@@ -94,6 +95,11 @@ void CommandGate::retire(CommandSerial serial) {
 void CommandGate::showAgain(CommandSerial serial, const Path& rest) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (motion_ && motion_->command.serial == serial && motion_->topics) motion_->topics->showAgain(rest);
+}
+
+CommandSerial CommandGate::lastMotion() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return last_motion_;
 }
 
 std::shared_ptr<const SentMotion> CommandGate::motion() const {

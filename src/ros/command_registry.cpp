@@ -19,41 +19,50 @@ bool canBeReported(std::uint8_t status) {
   return status == CommandStatus::RUNNING || status == CommandStatus::FINISHED || status == CommandStatus::ERROR;
 }
 
+void setProgress(const std::optional<MotionProgress>& progress, CommandStatus* status) {
+  const MotionProgress known = progress.value_or(MotionProgress());
+  status->has_progress = progress.has_value();
+  status->distance_left = known.distance_left;
+  status->share_done = known.share_done;
+  status->time_left = known.time_left;
+}
+
 }  // namespace
 
 CommandRegistry::CommandRegistry(Listener listener, ReportRules rules)
     : listener_(std::move(listener)), rules_(rules), next_id_(firstFreshId()) {}
 
-CommandRegistry::Admission CommandRegistry::admit(std::int64_t wanted_id, const std::string& processor,
+CommandRegistry::Admission CommandRegistry::admit(std::int64_t wanted_id, const CommandOwner& owner,
                                                   std::uint64_t digest) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const Record* const known = byId(wanted_id);
   if (known != nullptr && known->state != State::kEnded) {
-    if (known->digest == digest && known->processor == processor) {
+    if (known->digest == digest && known->owner.processor == owner.processor) {
       return {{serials_.at(wanted_id), wanted_id, 0}, known->status, ""};
     }
-    throw DuplicateId(text("command_id ", wanted_id, " belongs to a command of ", known->processor,
+    throw DuplicateId(text("command_id ", wanted_id, " belongs to a command of ", known->owner.processor,
                            " that is still running; use another id, or 0 for a fresh one"));
   }
-  return letIn(wanted_id, processor, digest);
+  return letIn(wanted_id, owner, digest);
 }
 
-CommandRegistry::Admission CommandRegistry::admitAlways(std::int64_t wanted_id, const std::string& processor) {
+CommandRegistry::Admission CommandRegistry::admitAlways(std::int64_t wanted_id, const CommandOwner& owner) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const Record* const known = byId(wanted_id);
-  if (known == nullptr || known->state == State::kEnded) return letIn(wanted_id, processor, 0);
-  const std::string owner = known->processor;
-  Admission admission = letIn(0, processor, 0);
-  admission.note = text("command_id ", wanted_id, " belongs to a command of ", owner,
+  if (known == nullptr || known->state == State::kEnded) return letIn(wanted_id, owner, 0);
+  const std::string other = known->owner.processor;
+  Admission admission = letIn(0, owner, 0);
+  admission.note = text("command_id ", wanted_id, " belongs to a command of ", other,
                         " that is still running; this one is command ", admission.command.id);
   return admission;
 }
 
-CommandStatus CommandRegistry::refuse(CommandStatus status, const std::string& processor) {
+CommandStatus CommandRegistry::refuse(CommandStatus status, const CommandOwner& owner) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  status.service = owner.service;
   const Record* const known = byId(status.command_id);
   if (known != nullptr && known->state != State::kEnded) return status;
-  const AdmittedCommand command = add(status.command_id, processor, 0);
+  const AdmittedCommand command = add(status.command_id, owner, 0);
   status.command_id = command.id;
   change(command.serial, running(command.serial), status);
   return status;
@@ -78,6 +87,15 @@ void CommandRegistry::noteAnswer(CommandSerial serial, const std::string& messag
   say(serial, record);
 }
 
+void CommandRegistry::noteProgress(CommandSerial serial, const std::optional<MotionProgress>& progress) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  Record* const record = running(serial);
+  if (record == nullptr || record->state != State::kSent) return;
+  record->driven = progress;
+  setProgress(progress, &record->status);
+  record->status.header.stamp = ros::Time::now();
+}
+
 bool CommandRegistry::update(const StatusChange& update) {
   const std::lock_guard<std::mutex> lock(mutex_);
   Record* const record = running(update.serial);
@@ -98,7 +116,7 @@ bool CommandRegistry::report(const CommandStatus& status, const std::string& pro
   if (known == serials_.end()) return true;
   const CommandSerial serial = known->second;
   Record* const record = running(serial);
-  if (record == nullptr || record->processor != processor || record->state != State::kSent) return true;
+  if (record == nullptr || record->owner.processor != processor || record->state != State::kSent) return true;
   if (isOlder(status.header.stamp, record->sent_at, record->skew)) return true;
   record->last_report = ros::SteadyTime::now();
   record->silence.clear();
@@ -125,6 +143,15 @@ void CommandRegistry::noteSilence(double limit) {
                           " s (~planner_silence_timeout); is the planner running? Before that: ");
     say(serial, &record);
   }
+}
+
+std::vector<CommandStatus> CommandRegistry::running() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::vector<CommandStatus> running;
+  for (const auto& [serial, record] : records_) {
+    if (record.state != State::kEnded) running.push_back(record.status);
+  }
+  return running;
 }
 
 CommandStatus CommandRegistry::find(std::int64_t command_id) const {
@@ -175,21 +202,21 @@ const CommandRegistry::Record* CommandRegistry::byId(std::int64_t command_id) co
   return known == serials_.end() ? nullptr : &records_.at(known->second);
 }
 
-CommandRegistry::Admission CommandRegistry::letIn(std::int64_t wanted_id, const std::string& processor,
+CommandRegistry::Admission CommandRegistry::letIn(std::int64_t wanted_id, const CommandOwner& owner,
                                                   std::uint64_t digest) {
-  const AdmittedCommand command = add(wanted_id, processor, digest);
+  const AdmittedCommand command = add(wanted_id, owner, digest);
   say(command.serial, running(command.serial));
   return {command, std::nullopt, ""};
 }
 
 /// The record of an ended command by the same id gives way.
-AdmittedCommand CommandRegistry::add(std::int64_t command_id, const std::string& processor, std::uint64_t digest) {
+AdmittedCommand CommandRegistry::add(std::int64_t command_id, const CommandOwner& owner, std::uint64_t digest) {
   if (command_id <= 0) {
     while (serials_.count(next_id_) != 0) ++next_id_;  // a caller may have chosen it
     command_id = next_id_++;
   }
   const CommandSerial serial = ++last_serial_;
-  Record& record = records_[serial];
+  Record& record = records_.emplace(serial, owner).first->second;
   const auto [known, is_new] = serials_.emplace(command_id, serial);
   record.skew = is_new ? rules_.clock_skew : 0.0;  // a planner may still report about the earlier command by this id
   if (!is_new) {
@@ -197,10 +224,10 @@ AdmittedCommand CommandRegistry::add(std::int64_t command_id, const std::string&
     records_.erase(known->second);
     known->second = serial;
   }
-  record.processor = processor;
   record.digest = digest;
   record.said = "being planned";
   record.status.command_id = command_id;
+  record.status.service = owner.service;
   return {serial, command_id, 0};
 }
 
@@ -217,6 +244,12 @@ void CommandRegistry::change(CommandSerial serial, Record* record, const Command
   const std::int64_t id = old.command_id;
   record->status = status;
   record->status.command_id = id;
+  record->status.service = record->owner.service;
+  if (hasEnded(status)) {
+    const bool has_arrived = status.status == CommandStatus::FINISHED && record->state == State::kSent;
+    record->driven = has_arrived ? std::optional<MotionProgress>({0.0, 1.0, 0.0}) : std::nullopt;
+  }
+  setProgress(record->driven, &record->status);  // a planner's own words on it do not count
   const CommandStatus told = record->status;
   if (hasEnded(status)) {
     record->state = State::kEnded;

@@ -69,6 +69,8 @@ void CommandService::open() {
                            " is advertised by this process already; is the same processor loaded twice?"));
 }
 
+CommandOwner CommandService::owner() const { return {id(), service_name_.substr(service_name_.rfind('/') + 1)}; }
+
 ArrivalNumber CommandService::arrivalOfThisCallback() const {
   const ArrivalNumber stamped = GuardedQueue::stampOfRunningCallback();
   return stamped > 0 ? stamped : context().gate().arrive();
@@ -77,8 +79,9 @@ ArrivalNumber CommandService::arrivalOfThisCallback() const {
 CommandStatus CommandService::admitAndExecute(const Incoming& request,
                                               const std::function<CommandStatus(const AdmittedCommand&)>& execute) {
   CommandRegistry& registry = context().registry();
-  CommandRegistry::Admission admission = request.acts_always ? registry.admitAlways(request.wanted_id, id())
-                                                             : registry.admit(request.wanted_id, id(), request.digest);
+  CommandRegistry::Admission admission = request.acts_always
+                                             ? registry.admitAlways(request.wanted_id, owner())
+                                             : registry.admit(request.wanted_id, owner(), request.digest);
   if (admission.running) return *admission.running;
   admission.command.arrival = request.arrival;
   CommandStatus status;
@@ -89,6 +92,7 @@ CommandStatus CommandService::admitAndExecute(const Incoming& request,
   }
   if (!admission.note.empty()) status.message += "; " + admission.note;
   status.message = statusMessage(status.message);
+  status.service = owner().service;
   if (hasEnded(status)) {
     const bool was_running = registry.update({admission.command.serial, status});
     if (!was_running) status = registry.statusOf(admission.command.serial).value_or(status);  // it was cancelled
@@ -101,7 +105,7 @@ CommandStatus CommandService::admitAndExecute(const Incoming& request,
 }
 
 CommandStatus CommandService::refuse(std::int64_t wanted_id) {
-  const CommandStatus status = context().registry().refuse(statusFrom(std::current_exception(), wanted_id), id());
+  const CommandStatus status = context().registry().refuse(statusFrom(std::current_exception(), wanted_id), owner());
   tell(status);
   return status;
 }

@@ -45,12 +45,16 @@ void MotionWatch::look() {
   try {
     pose = vehicle_pose_.get();
   } catch (const Error&) {
-    return;  // who needs the pose tells why it is missing
+    // Who needs the pose tells why it is missing.
+    if (const auto motion = gate_.motion()) registry_.noteProgress(motion->command.serial, std::nullopt);
+    return;
   }
   const double now = steadyNow();
   const std::lock_guard<std::mutex> lock(mutex_);
   motion_.update(pose, now);
   follow(pose, now);
+  if (!followed_) return;
+  tellProgress();
   endWhereArrived(pose, now);
 }
 
@@ -59,15 +63,24 @@ void MotionWatch::follow(const Pose2d& pose, double now) {
   if (!motion) {
     followed_.reset();
     progress_.reset();
+    time_.reset();
     return;
   }
-  if (motion != followed_) progress_.emplace(motion->path);
+  if (motion != followed_) {
+    progress_.emplace(motion->path);
+    time_.emplace(vehicle_, motion->path);
+  }
   followed_ = std::move(motion);
   progress_->update(pose, now);
 }
 
+void MotionWatch::tellProgress() {
+  registry_.noteProgress(followed_->command.serial, MotionProgress{progress_->lengthLeft(), progress_->shareDone(),
+                                                                   time_->left(progress_->along(), motion_.speed())});
+}
+
 void MotionWatch::endWhereArrived(const Pose2d& pose, double now) {
-  if (!followed_ || params_.arrival == ArrivalSource::kReported) return;
+  if (params_.arrival == ArrivalSource::kReported) return;
   const CommandSerial serial = followed_->command.serial;
   if (params_.arrival == ArrivalSource::kBoth && registry_.silenceOf(serial) < params_.silence) return;
   if (progress_->lengthLeft() > kUnfollowed + params_.tolerances.along) return;

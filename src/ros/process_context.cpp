@@ -91,6 +91,8 @@ ContextParams readContextParams(const ParameterReader& reader) {
   reader.readWithin("planning_queue", 0, 1000, &params.planning.waiting);
   params.requests = readRequestLimits(reader.within("requests"));
   reader.readName("output_command_status_name", &params.status_topic);
+  reader.readName("progress_name", &params.progress_topic);
+  reader.readWithin("progress_rate", 0.01, 100.0, &params.progress_rate);
   reader.readName("command_log_name", &params.log_topic);
   reader.readName("routing_response_name", &params.routing_response_topic);
   reader.readName("path_name", &params.path_topic);
@@ -137,6 +139,7 @@ ProcessContext::ProcessContext(const ros::NodeHandle& nh, const ros::NodeHandle&
           },
           params_.reports),
       motion_watch_(params_.motion_watch, params_.vehicle, vehicle_pose_, gate_, registry_),
+      progress_topic_(advertise<CommandStatus>(params_.progress_topic, false), gate_, registry_),
       display_(nh_, params_.display, router_ ? router_->mapPtr() : nullptr, [this] { return placeOf(vehicle_pose_); }),
       housekeeping_(LaneOptions{"the housekeeping lane"}),
       reports_(LaneOptions{"the lane of the vehicle's reports"}) {
@@ -153,6 +156,7 @@ ProcessContext::ProcessContext(const ros::NodeHandle& nh, const ros::NodeHandle&
   silence_timer_ =
       every(kSilenceCheckPeriod, reports_, [this] { registry_.noteSilence(params_.planner_silence_timeout); });
   motion_timer_ = every(kMotionPeriod, reports_, [this] { motion_watch_.look(); });
+  progress_timer_ = every(1.0 / params_.progress_rate, reports_, [this] { progress_topic_.publish(); });
 }
 
 std::vector<ros::Publisher> ProcessContext::configuredPads() {

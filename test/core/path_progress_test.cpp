@@ -51,5 +51,26 @@ TEST(PathProgress, FindsTheVehicleAgainAfterItWasNotSeenForSomeSeconds) {
   EXPECT_EQ(progress.reached(), 100u);
 }
 
+TEST(PathProgress, CountsBetweenPointsAndNeverGoesBack) {
+  const auto path = lap();
+  PathProgress progress(path);
+  double now = 0.0, last = 0.0;
+  for (double s = 0.0; s < 39.0; s += 0.13) {
+    progress.update({s, 0.3, 0.0}, now += 0.1);
+    EXPECT_NEAR(progress.drivenLength(), s, 0.01);
+    EXPECT_GE(progress.shareDone(), last);
+    last = progress.shareDone();
+  }
+  progress.update({30.0, 0.0, 0.0}, now += 0.1);
+  EXPECT_GE(progress.shareDone(), last);
+  EXPECT_NEAR(progress.lengthLeft(), 160.0 - 39.0, 0.2);
+}
+
+TEST(PathProgress, IsDoneOnAPathWithoutLength) {
+  const PathProgress progress(std::make_shared<const Path>(Path(2)));
+  EXPECT_EQ(progress.lengthLeft(), 0.0);
+  EXPECT_EQ(progress.shareDone(), 1.0);
+}
+
 }  // namespace
 }  // namespace external_command

@@ -22,9 +22,10 @@ def transform(parent="map", child="base_link", x=0.0, y=0.0, stamp=None, w=1.0, 
 
 
 class Localization:
-    """Publishes the pose of base_link in map, between `start()` and `stop()`."""
+    """Publishes the pose of `child` in map, between `start()` and `stop()`."""
 
-    def __init__(self, x, y, heading=0.0, z=0.0):
+    def __init__(self, x, y, heading=0.0, z=0.0, child="base_link"):
+        self._child = child
         self.x, self.y, self.heading, self.z = x, y, heading, z
         self.publisher = rospy.Publisher("/tf", TFMessage, queue_size=100)
         self._is_stopped = threading.Event()
@@ -44,4 +45,4 @@ class Localization:
 
     def _run(self):
         while not self._is_stopped.wait(PERIOD):
-            self.send(transform(x=self.x, y=self.y, z=self.z, heading=self.heading))
+            self.send(transform(child=self._child, x=self.x, y=self.y, z=self.z, heading=self.heading))

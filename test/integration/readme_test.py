@@ -17,7 +17,7 @@ from external_command.srv import LaneFollow
 
 README = os.path.join(rospkg.RosPack().get_path("external_command"), "README.md")
 SERVICES = {"lane_follow", "valet_parking", "free_space", "path_follow", "precise_parking", "zone_cover", "action",
-            "speed", "chassis", "command_status", "cancel_command"}
+            "speed", "chassis", "command_status", "current_command", "cancel_command"}
 
 
 def examples():
@@ -27,7 +27,8 @@ def examples():
 
 def answer_of(call):
     printed = subprocess.run(["bash", "-c", call], stdout=subprocess.PIPE, check=True, timeout=60).stdout
-    return yaml.safe_load(printed)["status"]
+    answer = yaml.safe_load(printed)
+    return answer["motion"] if "current_command" in call else answer["status"]
 
 
 class ReadmeTest(unittest.TestCase):

@@ -12,6 +12,7 @@ namespace external_command {
 namespace {
 
 constexpr std::uint64_t kDigest = 1;
+const CommandOwner kLaneFollow{"lane_follow", "drive"}, kAction{"action", "act"};
 
 class Registry : public testing::Test {
  protected:
@@ -20,7 +21,7 @@ class Registry : public testing::Test {
   }
 
   CommandSerial admit(std::int64_t id, const std::string& processor = "lane_follow") {
-    return registry_.admit(id, processor, kDigest).command.serial;
+    return registry_.admit(id, {processor, "service"}, kDigest).command.serial;
   }
   bool update(CommandSerial serial, std::uint8_t status, const std::string& message = "arrived") {
     return registry_.update({serial, makeStatus(0, status, ErrorCode::kOk, message)});
@@ -34,49 +35,49 @@ class Registry : public testing::Test {
 };
 
 TEST_F(Registry, GivesFreshPositiveIds) {
-  const auto first = registry_.admit(0, "lane_follow", kDigest);
-  const auto second = registry_.admit(-3, "lane_follow", kDigest);
+  const auto first = registry_.admit(0, kLaneFollow, kDigest);
+  const auto second = registry_.admit(-3, kLaneFollow, kDigest);
   EXPECT_GT(first.command.id, 0);
   EXPECT_GT(second.command.id, 0);
   EXPECT_NE(first.command.id, second.command.id);
 }
 
 TEST_F(Registry, GivesNoFreshIdThatACallerUses) {
-  const auto first = registry_.admit(0, "lane_follow", kDigest);
-  registry_.admit(first.command.id + 1, "lane_follow", kDigest);
-  EXPECT_EQ(registry_.admit(0, "lane_follow", kDigest).command.id, first.command.id + 2);
+  const auto first = registry_.admit(0, kLaneFollow, kDigest);
+  registry_.admit(first.command.id + 1, kLaneFollow, kDigest);
+  EXPECT_EQ(registry_.admit(0, kLaneFollow, kDigest).command.id, first.command.id + 2);
 }
 
 TEST_F(Registry, TakesTheSameCommandAgainAsARetry) {
-  registry_.admit(5, "lane_follow", kDigest);
-  const auto again = registry_.admit(5, "lane_follow", kDigest);
+  registry_.admit(5, kLaneFollow, kDigest);
+  const auto again = registry_.admit(5, kLaneFollow, kDigest);
   ASSERT_TRUE(again.running.has_value());
   EXPECT_EQ(again.running->status, CommandStatus::RUNNING);
 }
 
 TEST_F(Registry, RefusesADifferentCommandUnderARunningId) {
-  registry_.admit(5, "lane_follow", kDigest);
-  EXPECT_THROW(registry_.admit(5, "lane_follow", kDigest + 1), DuplicateId);
-  EXPECT_THROW(registry_.admit(5, "speed", kDigest), DuplicateId);
+  registry_.admit(5, kLaneFollow, kDigest);
+  EXPECT_THROW(registry_.admit(5, kLaneFollow, kDigest + 1), DuplicateId);
+  EXPECT_THROW(registry_.admit(5, CommandOwner{"speed", ""}, kDigest), DuplicateId);
 }
 
 TEST_F(Registry, LetsAnIdBeUsedAgainOnceItsCommandHasEnded) {
   const CommandSerial serial = admit(5, "lane_follow");
   end(serial);
-  const auto again = registry_.admit(5, "lane_follow", kDigest);
+  const auto again = registry_.admit(5, kLaneFollow, kDigest);
   EXPECT_FALSE(again.running.has_value());
   EXPECT_EQ(registry_.find(5).status, CommandStatus::RUNNING);
 }
 
 TEST_F(Registry, KeepsTheRunningCommandWhenARequestUnderItsIdIsRefused) {
-  registry_.admit(5, "lane_follow", kDigest);
-  registry_.refuse(makeStatus(5, CommandStatus::ERROR, ErrorCode::kInvalidRequest, "bad"), "lane_follow");
+  registry_.admit(5, kLaneFollow, kDigest);
+  registry_.refuse(makeStatus(5, CommandStatus::ERROR, ErrorCode::kInvalidRequest, "bad"), kLaneFollow);
   EXPECT_EQ(registry_.find(5).status, CommandStatus::RUNNING);
 }
 
 TEST_F(Registry, RemembersARefusedRequest) {
   const auto status =
-      registry_.refuse(makeStatus(0, CommandStatus::ERROR, ErrorCode::kInvalidRequest, "bad"), "lane_follow");
+      registry_.refuse(makeStatus(0, CommandStatus::ERROR, ErrorCode::kInvalidRequest, "bad"), kLaneFollow);
   EXPECT_GT(status.command_id, 0);
   EXPECT_EQ(registry_.find(status.command_id).error_code, CommandStatus::INVALID_REQUEST);
 }
@@ -145,7 +146,7 @@ TEST_F(Registry, LetsAProcessorsOwnMessageStandUntilTheEnd) {
 }
 
 TEST_F(Registry, RemembersTheNewestThousandAndNeverForgetsARunningOne) {
-  registry_.admit(1, "lane_follow", kDigest);
+  registry_.admit(1, kLaneFollow, kDigest);
   for (std::int64_t id = 2; id <= 1200; ++id) {
     end(admit(id));
   }
@@ -175,17 +176,17 @@ TEST_F(Registry, KeepsApartTwoCommandsByTheSameId) {
 
 TEST_F(Registry, GivesWhatAlwaysActsAFreshIdWhereItsOwnRuns) {
   admit(5);
-  const auto stop = registry_.admitAlways(5, "action");
+  const auto stop = registry_.admitAlways(5, kAction);
   EXPECT_NE(stop.command.id, 5);
   EXPECT_NE(stop.note.find("command_id 5 belongs to a command of lane_follow"), std::string::npos) << stop.note;
-  const auto again = registry_.admitAlways(stop.command.id, "action");
+  const auto again = registry_.admitAlways(stop.command.id, kAction);
   EXPECT_NE(again.command.id, stop.command.id) << "the same again acts again";
   EXPECT_FALSE(again.running.has_value());
 }
 
 TEST_F(Registry, LetsWhatAlwaysActsHaveTheIdOfACommandThatHasEnded) {
   end(admit(5));
-  const auto clear = registry_.admitAlways(5, "action");
+  const auto clear = registry_.admitAlways(5, kAction);
   EXPECT_EQ(clear.command.id, 5);
   EXPECT_TRUE(clear.note.empty());
 }
@@ -234,7 +235,7 @@ TEST(RegistryByPose, LeavesTheEndToThePoseWhereReportsMayNotTellIt) {
   ReportRules rules;
   rules.may_finish = false;
   CommandRegistry registry({}, rules);
-  registry.markSent(registry.admit(5, "lane_follow", kDigest).command.serial, "sent");
+  registry.markSent(registry.admit(5, kLaneFollow, kDigest).command.serial, "sent");
   registry.report(makeStatus(5, CommandStatus::FINISHED, ErrorCode::kOk, "arrived"), "lane_follow");
   EXPECT_EQ(registry.find(5).status, CommandStatus::RUNNING);
   registry.report(makeStatus(5, CommandStatus::ERROR, ErrorCode::kOk, "wheel lost"), "lane_follow");
@@ -262,10 +263,74 @@ TEST_F(Registry, FindsTheNewestCommandByAnId) {
 }
 
 TEST_F(Registry, TellsACommandThatWasEndedMeanwhile) {
-  const AdmittedCommand command = registry_.admit(7, "action", kDigest).command;
+  const AdmittedCommand command = registry_.admit(7, kAction, kDigest).command;
   EXPECT_NO_THROW(registry_.requireRunning(command));
   registry_.update({command.serial, makeStatus(7, CommandStatus::ERROR, ErrorCode::kCancelled, "cancelled")});
   EXPECT_THROW(registry_.requireRunning(command), Cancelled);
+}
+
+TEST_F(Registry, NamesTheServiceOfEveryCommand) {
+  registry_.admit(1, kLaneFollow, kDigest);
+  EXPECT_EQ(registry_.find(1).service, "drive");
+  EXPECT_EQ(registry_.admit(1, kLaneFollow, kDigest).running->service, "drive") << "to a retry";
+  EXPECT_EQ(registry_.refuse(makeStatus(2, CommandStatus::ERROR, ErrorCode::kNoRoute, "none"), kAction).service, "act");
+  EXPECT_EQ(registry_.find(2).service, "act");
+  EXPECT_EQ(registry_.find(3).service, "") << "it is not known";
+  for (const CommandStatus& status : told_) EXPECT_NE(status.service, "");
+}
+
+TEST_F(Registry, KeepsTheProgressOfADrivenCommandThroughReports) {
+  const CommandSerial serial = admit(5, "lane_follow");
+  registry_.noteProgress(serial, MotionProgress{8.0, 0.2, 4.0});
+  EXPECT_FALSE(registry_.find(5).has_progress) << "it is planned yet";
+  registry_.markSent(serial, "sent");
+  const std::size_t news = told_.size();
+  registry_.noteProgress(serial, MotionProgress{8.0, 0.2, 4.0});
+  EXPECT_EQ(told_.size(), news) << "progress is no news";
+
+  CommandStatus report = makeStatus(5, CommandStatus::RUNNING, ErrorCode::kOk, "on my way");
+  report.has_progress = true;
+  report.share_done = 0.9;
+  report.service = "planner";
+  registry_.report(report, "lane_follow");
+  const CommandStatus status = registry_.find(5);
+  EXPECT_EQ(status.message, "on my way");
+  EXPECT_EQ(status.service, "service");
+  EXPECT_TRUE(status.has_progress);
+  EXPECT_EQ(status.distance_left, 8.0);
+  EXPECT_EQ(status.share_done, 0.2) << "what the planner says of it does not count";
+  EXPECT_EQ(status.time_left, 4.0);
+
+  registry_.noteProgress(serial, std::nullopt);
+  EXPECT_FALSE(registry_.find(5).has_progress) << "the pose was lost";
+  EXPECT_EQ(registry_.find(5).distance_left, 0.0);
+}
+
+TEST_F(Registry, IsDoneWithADrivenCommandThatIsFinishedOnly) {
+  const CommandSerial arrived = admit(5), failed = admit(6), never_driven = admit(7);
+  registry_.markSent(arrived, "sent");
+  registry_.markSent(failed, "sent");
+  registry_.noteProgress(failed, MotionProgress{8.0, 0.2, 4.0});
+  end(arrived);
+  registry_.update({failed, makeStatus(6, CommandStatus::ERROR, ErrorCode::kCancelled, "cancelled")});
+  end(never_driven);
+  EXPECT_TRUE(registry_.find(5).has_progress);
+  EXPECT_EQ(registry_.find(5).share_done, 1.0);
+  EXPECT_EQ(registry_.find(5).distance_left, 0.0);
+  EXPECT_FALSE(registry_.find(6).has_progress);
+  EXPECT_FALSE(registry_.find(7).has_progress);
+}
+
+TEST_F(Registry, ListsWhatRunsInTheOrderOfAdmission) {
+  EXPECT_TRUE(registry_.running().empty());
+  admit(9);
+  const CommandSerial ended = admit(3);
+  admit(4);
+  end(ended);
+  const std::vector<CommandStatus> running = registry_.running();
+  ASSERT_EQ(running.size(), 2u);
+  EXPECT_EQ(running[0].command_id, 9);
+  EXPECT_EQ(running[1].command_id, 4);
 }
 
 }  // namespace

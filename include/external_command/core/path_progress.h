@@ -23,14 +23,22 @@ class PathProgress {
   /// Index of the point that was reached.
   std::size_t reached() const { return reached_; }
 
-  double drivenLength() const { return (*path_)[reached_].s - path_->front().s; }  ///< [m]
-  double lengthLeft() const { return path_->back().s - (*path_)[reached_].s; }     ///< [m]
+  double along() const { return along_; }                               ///< `s` of the vehicle, between points too [m]
+  double drivenLength() const { return along_ - path_->front().s; }     ///< [m]
+  double lengthLeft() const { return path_->back().s - along_; }        ///< [m]
+  double length() const { return path_->back().s - path_->front().s; }  ///< [m]
+
+  /// Of the path, that is driven, in [0, 1].
+  double shareDone() const { return length() > 0.0 ? drivenLength() / length() : 1.0; }
 
   const Path& path() const { return *path_; }
 
  private:
+  double alongBeside(const Pose2d& vehicle) const;
+
   std::shared_ptr<const Path> path_;
   std::size_t reached_ = 0;
+  double along_;                   ///< [m]
   std::optional<double> counted_;  ///< when a pose counted last [s]
 };
 

@@ -99,6 +99,9 @@ class CommandGate {
   /// The motion under way: sent, and not retired since. May be nullptr.
   std::shared_ptr<const SentMotion> motion() const;
 
+  /// The last that was sent, whether or not it is under way; 0 where none was.
+  CommandSerial lastMotion() const;
+
  private:
   void requireNewestLocked(const AdmittedCommand& command) const;
 
@@ -111,6 +114,7 @@ class CommandGate {
   ros::Time newest_began_;     ///< no motion of it has an earlier stamp
   CancelSource planning_;      ///< raises the newest ticket's token
   std::shared_ptr<const SentMotion> motion_;
+  CommandSerial last_motion_ = 0;
 };
 
 }  // namespace external_command

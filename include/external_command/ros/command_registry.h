@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "external_command/CommandStatus.h"
@@ -21,6 +22,19 @@ namespace external_command {
 struct StatusChange {
   CommandSerial serial = 0;
   CommandStatus status;
+};
+
+/// Who takes a command.
+struct CommandOwner {
+  std::string processor;  ///< its nodelet's name; only reports to it count
+  std::string service;    ///< its name without a namespace; CommandStatus::service
+};
+
+/// How far a motion command has come.
+struct MotionProgress {
+  double distance_left = 0.0;  ///< [m]
+  double share_done = 0.0;     ///< in [0, 1]
+  double time_left = 0.0;      ///< [s]
 };
 
 /// Which of the vehicle's reports count.
@@ -54,20 +68,23 @@ class CommandRegistry {
   /// @param wanted_id  0 or below: a fresh id is given.
   /// @param digest     of the request but for stamp and id; an equal one under a running id is a retry.
   /// @throws DuplicateId  another command with this id is still running.
-  Admission admit(std::int64_t wanted_id, const std::string& processor, std::uint64_t digest);
+  Admission admit(std::int64_t wanted_id, const CommandOwner& owner, std::uint64_t digest);
 
   /// The same for a request that is carried out whatever its id: under a running one it gets a fresh id.
-  Admission admitAlways(std::int64_t wanted_id, const std::string& processor);
+  Admission admitAlways(std::int64_t wanted_id, const CommandOwner& owner);
 
   /// Answers a request that failed. Recorded under its id, except while another command runs under it.
   /// @return `status`, with a fresh id where it had none.
-  CommandStatus refuse(CommandStatus status, const std::string& processor);
+  CommandStatus refuse(CommandStatus status, const CommandOwner& owner);
 
   /// From now on the vehicle's reports count for this command.
   void markSent(CommandSerial serial, const std::string& message);
 
   /// What the caller of a running command was told, unless more is known of it by now.
   void noteAnswer(CommandSerial serial, const std::string& message);
+
+  /// How far a command that was sent has come; nullopt where that is not known. No news for the listener.
+  void noteProgress(CommandSerial serial, const std::optional<MotionProgress>& progress);
 
   /// Ends a running command, or tells how far it has come (status RUNNING), which reports then leave as it is. The
   /// first end counts: false where the command is not running (any more).
@@ -81,6 +98,9 @@ class CommandRegistry {
   /// Notes beside the message of each command sent longer than `limit` [s] ago that nothing was reported about it
   /// since.
   void noteSilence(double limit);
+
+  /// Of all running commands, in the order of their admission.
+  std::vector<CommandStatus> running() const;
 
   /// UNKNOWN for an id never seen, or long forgotten.
   CommandStatus find(std::int64_t command_id) const;
@@ -102,11 +122,14 @@ class CommandRegistry {
   enum class State { kPlanned, kSent, kEnded };
 
   struct Record {
+    explicit Record(CommandOwner taken_by) : owner(std::move(taken_by)) {}
+
     CommandStatus status;  ///< its message is composed of the three below
     std::string said;      ///< by its processor when it was sent, then by the vehicle's reports
     std::string progress;  ///< its processor's own words on how far it has come; they count more
     std::string silence;   ///< set while the planner says nothing
-    std::string processor;
+    std::optional<MotionProgress> driven;
+    const CommandOwner owner;
     std::uint64_t digest = 0;
     State state = State::kPlanned;
     double skew = 0.0;            ///< by which a report may seem older than the command [s]
@@ -116,8 +139,8 @@ class CommandRegistry {
 
   Record* running(CommandSerial serial);
   const Record* byId(std::int64_t command_id) const;
-  Admission letIn(std::int64_t wanted_id, const std::string& processor, std::uint64_t digest);
-  AdmittedCommand add(std::int64_t command_id, const std::string& processor, std::uint64_t digest);
+  Admission letIn(std::int64_t wanted_id, const CommandOwner& owner, std::uint64_t digest);
+  AdmittedCommand add(std::int64_t command_id, const CommandOwner& owner, std::uint64_t digest);
   void say(CommandSerial serial, Record* record);
   void change(CommandSerial serial, Record* record, const CommandStatus& status);
   void forgetOldest();

@@ -53,6 +53,8 @@ class CommandService : public CommandProcessor {
   /// What the registry knows this processor as: its nodelet name.
   const std::string& id() const { return getName(); }
 
+  CommandOwner owner() const;
+
   const std::string& serviceName() const { return service_name_; }
   DedicatedLane& lane() { return *lane_; }
 

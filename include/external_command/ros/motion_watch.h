@@ -7,6 +7,7 @@
 #include <string>
 
 #include "external_command/core/arrival.h"
+#include "external_command/core/driving_time.h"
 #include "external_command/core/path_progress.h"
 #include "external_command/core/vehicle.h"
 #include "external_command/ros/command_gate.h"
@@ -49,8 +50,8 @@ class PlanStart {
   std::string why_unknown_;
 };
 
-/// Follows the vehicle along the path of the motion that is under way. Ends the command where the planner does not but
-/// the vehicle stands at the end of its path. Thread-safe.
+/// Follows the vehicle along the path of the motion that is under way, and tells the registry how far it has come. Ends
+/// the command where the planner does not but the vehicle stands at the end of its path. Thread-safe.
 class MotionWatch {
  public:
   /// All must live as long as this.
@@ -68,6 +69,7 @@ class MotionWatch {
 
  private:
   void follow(const Pose2d& pose, double now);
+  void tellProgress();
   void endWhereArrived(const Pose2d& pose, double now);
 
   const MotionWatchParams params_;
@@ -80,6 +82,7 @@ class MotionWatch {
   VehicleMotion motion_;
   std::shared_ptr<const SentMotion> followed_;
   std::optional<PathProgress> progress_;  ///< along the path of the followed
+  std::optional<DrivingTime> time_;       ///< on that path
 };
 
 }  // namespace external_command

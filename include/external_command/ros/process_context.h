@@ -20,6 +20,7 @@
 #include "external_command/ros/planning_pads.h"
 #include "external_command/ros/planning_pool.h"
 #include "external_command/ros/plans_in_work.h"
+#include "external_command/ros/progress_topic.h"
 #include "external_command/ros/request_limits.h"
 #include "external_command/ros/vehicle_pose.h"
 
@@ -42,6 +43,8 @@ struct ContextParams {
   PlanningLimits planning;
   RequestLimits requests;
   std::string status_topic = "external_command/status";
+  std::string progress_topic = "external_command/progress";
+  double progress_rate = 2.0;  ///< of that topic [Hz]
   std::string log_topic = "external_command/log";
   std::string routing_response_topic = "routing_response";
   std::string path_topic = "external_command/path";
@@ -165,6 +168,7 @@ class ProcessContext {
   CommandGate gate_;
   CommandRegistry registry_;
   MotionWatch motion_watch_;
+  ProgressTopic progress_topic_;
   SentMotions sent_motions_;
   std::mutex sending_mutex_;
   Display display_;
@@ -172,7 +176,7 @@ class ProcessContext {
   DedicatedLane housekeeping_, reports_;  // after all that their callbacks use, before what is bound to their queues
   ArrivalNumber last_arrival_ = 0;        ///< giveBackMemory() looked at it
   bool has_memory_ = false;               ///< that was not given back since
-  ros::SteadyTimer silence_timer_, motion_timer_, memory_timer_;
+  ros::SteadyTimer silence_timer_, motion_timer_, progress_timer_, memory_timer_;
 };
 
 }  // namespace external_command

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "external_command/core/path.h"
+#include "external_command/core/vehicle.h"
+
+namespace external_command {
+
+/// How long what is left of a path takes at its speeds, with a stop at each cusp and at the end. What the vehicle waits
+/// for (a stop, a red light, the change of the gear) is not known here.
+class DrivingTime {
+ public:
+  /// @param path  not empty, with speeds by limitSpeeds().
+  DrivingTime(const VehicleParams& vehicle, std::shared_ptr<const Path> path);
+
+  /// From `s` along the path on [s]. The vehicle speeds up to what the path allows from its present `speed` [m/s].
+  double left(double s, double speed) const;
+
+ private:
+  double stretch(double from_speed, double to_speed, double length) const;
+
+  const double acceleration_, deceleration_;  ///< [m/s^2]
+  const std::shared_ptr<const Path> path_;
+  std::vector<double> to_end_;  ///< from each point [s]
+};
+
+}  // namespace external_command
