@@ -63,7 +63,6 @@ void ActionCommandProcessor::start() {
 void ActionCommandProcessor::readParameters() {
   parameters().readWithin("mode_switch_tries", 1, 100, &mode_switch_params_.tries);
   parameters().readWithin("mode_switch_interval", 0.01, 60.0, &mode_switch_params_.interval);
-  parameters().readWithin("max_chassis_age", 0.01, 3600.0, &max_chassis_age_);
   PendingActionParams params;
   parameters().readWithin("timeout", 0.01, 86400.0, &params.timeout);
   parameters().readWithin("stop_timeout", 0.01, 86400.0, &params.stop_timeout);
@@ -78,6 +77,14 @@ void ActionCommandProcessor::subscribe() {
   std::string chassis_topic = "canbus/chassis", state_topic = "planning/state";
   parameters().readName("chassis_name", &chassis_topic);
   parameters().readName("planning_state_name", &state_topic);
+  HeardChassisParams chassis_params{getNodeHandle().resolveName(chassis_topic), 1.0, "~max_chassis_age",
+                                    context().params().max_future_stamp};
+  parameters().readWithin("max_chassis_age", 0.01, 3600.0, &chassis_params.max_age);
+  chassis_.emplace(chassis_params);
+  needs("chassis", [this] {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return chassis_->words();
+  });
 
   ros::NodeHandle nh(getNodeHandle());
   nh.setCallbackQueue(watch_lane_.queue());
@@ -161,7 +168,7 @@ CommandStatus ActionCommandProcessor::switchMode(const AdmittedCommand& admitted
   const bool to_manual = target == ModeSwitch::Target::kManual;
   if (!to_manual) {
     context().registry().requireRunning(admitted);
-    requireChassis();
+    chassis_->require();
   }
   if (switch_) {
     context().registry().update(
@@ -178,7 +185,7 @@ CommandStatus ActionCommandProcessor::switchMode(const AdmittedCommand& admitted
 StatusChange ActionCommandProcessor::advanceSwitch() {
   const AdmittedCommand command = switch_->command;
   ModeSwitch& decision = switch_->decision;
-  const std::optional<ReportedMode> mode = freshMode();
+  const std::optional<ReportedMode> mode = chassis_->freshMode();
   const auto change = [&](std::uint8_t status, ErrorCode code, const std::string& message) {
     return StatusChange{command.serial, makeStatus(command.id, status, code, message)};
   };
@@ -206,35 +213,9 @@ StatusChange ActionCommandProcessor::advanceSwitch() {
   return change(CommandStatus::RUNNING, ErrorCode::kOk, decision.describe(mode));
 }
 
-std::optional<ReportedMode> ActionCommandProcessor::freshMode() const {
-  if (!reported_mode_ || now() - reported_mode_->time > max_chassis_age_) return std::nullopt;
-  return reported_mode_;
-}
-
-void ActionCommandProcessor::requireChassis() const {
-  if (freshMode()) return;
-  if (!odd_stamp_.empty()) throw NotReady(odd_stamp_);
-  if (!reported_mode_) {
-    throw NotReady(text("the chassis is not heard of: no message came on ", subscribers_.front().getTopic(),
-                        " (~chassis_name); is it running?"));
-  }
-  throw NotReady(text("the chassis is not heard of any more: its last report is ",
-                      seconds(now() - reported_mode_->time), " old; the limit is ", seconds(max_chassis_age_),
-                      " (~max_chassis_age)"));
-}
-
 void ActionCommandProcessor::onChassis(const Chassis& chassis) {
-  const double age = chassis.header.stamp.isZero() ? 0.0 : ros::Time::now().toSec() - chassis.header.stamp.toSec();
-  const double allowance = context().params().max_future_stamp;
   const std::lock_guard<std::mutex> lock(mutex_);
-  odd_stamp_.clear();
-  if (age < -allowance) {
-    odd_stamp_ =
-        text("the report of the chassis on ", subscribers_.front().getTopic(), " is stamped ", seconds(-age),
-             " in the future; the limit is ", seconds(allowance), " (~max_future_stamp): do the clocks agree?");
-    return;
-  }
-  reported_mode_ = ReportedMode{chassis.driving_mode, now() - std::max(0.0, age)};
+  if (!chassis_->take(chassis)) return;
   record(pending_->onChassis(chassis));
   goOnSwitching();
 }

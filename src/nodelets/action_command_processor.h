@@ -12,6 +12,7 @@
 #include "external_command/Chassis.h"
 #include "external_command/PlanningState.h"
 #include "external_command/ros/service_command_processor.h"
+#include "heard_chassis.h"
 #include "mode_switch.h"
 #include "pending_actions.h"
 
@@ -51,12 +52,6 @@ class ActionCommandProcessor : public ServiceCommandProcessor<Action> {
   /// The same, and tells it, where a switch is running.
   void goOnSwitching();
 
-  /// The last report of the chassis that is not too old.
-  std::optional<ReportedMode> freshMode() const;
-
-  /// @throws NotReady  the chassis was never heard of, or too long ago.
-  void requireChassis() const;
-
   void onChassis(const Chassis& chassis);
   void onTick();
   void record(const PendingActions::Changes& changes);
@@ -64,15 +59,13 @@ class ActionCommandProcessor : public ServiceCommandProcessor<Action> {
   void sendToControl(std::uint8_t pad) const;
 
   ModeSwitchParams mode_switch_params_;
-  double max_chassis_age_ = 1.0;  ///< [s]
   ros::Publisher control_pad_;
 
   std::mutex mutex_;  ///< guards what follows; held for decisions and sending, never while waiting
   std::optional<PendingActions> pending_;
   std::optional<RunningSwitch> switch_;
   bool mode_is_settled_ = true;  ///< no mode is asked for that the chassis may still go into
-  std::optional<ReportedMode> reported_mode_;
-  std::string odd_stamp_;  ///< why the newest report of the chassis does not count; empty where it does
+  std::optional<HeardChassis> chassis_;
 
   DedicatedLane watch_lane_{LaneOptions{"the lane of the chassis"}};  // before its users: they leave its queue first
   std::vector<ros::Subscriber> subscribers_;

@@ -65,16 +65,23 @@ void ChassisCommandProcessor::start() {
   for (const std::string& topic : outputTopics("canbus/chassis_control")) {
     publishers_.push_back(context().advertise<ChassisCommand>(topic, false));
   }
-  subscribe();
+  subscribe(timeout);
 }
 
-void ChassisCommandProcessor::subscribe() {
+void ChassisCommandProcessor::subscribe(double timeout) {
   std::string topic = "canbus/chassis";
   parameters().readName("chassis_name", &topic);
+  chassis_.emplace(
+      HeardChassisParams{getNodeHandle().resolveName(topic), timeout, "~timeout", context().params().max_future_stamp});
+  needs("chassis", [this] {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return chassis_->words();
+  });
   ros::NodeHandle nh(getNodeHandle());
   nh.setCallbackQueue(watch_lane_.queue());
   const auto on_chassis = [this](const ros::MessageEvent<Chassis const>& event) {
     const std::lock_guard<std::mutex> lock(mutex_);
+    chassis_->take(*event.getConstMessage());
     record(pending_->onChassis(event.getConstMessage()->signal));
   };
   chassis_subscriber_ = subscribeBounded<Chassis>(nh, topic, 10, on_chassis, context().params().requests);

@@ -10,6 +10,7 @@
 #include "external_command/ChassisCommand.h"
 #include "external_command/ChassisControl.h"
 #include "external_command/ros/service_command_processor.h"
+#include "heard_chassis.h"
 #include "pending_signals.h"
 
 namespace external_command {
@@ -22,7 +23,7 @@ class ChassisCommandProcessor : public ServiceCommandProcessor<ChassisControl> {
 
  private:
   void start() override;
-  void subscribe();
+  void subscribe(double timeout);
   void check(const ChassisCommand& command) const override;
   CommandStatus execute(const ChassisCommand& command, const AdmittedCommand& admitted, Response* response) override;
   void record(const PendingSignals::Changes& changes);
@@ -31,7 +32,8 @@ class ChassisCommandProcessor : public ServiceCommandProcessor<ChassisControl> {
   std::vector<ros::Publisher> publishers_;
 
   std::mutex mutex_;
-  std::optional<PendingSignals> pending_;  ///< guarded by the mutex
+  std::optional<PendingSignals> pending_;  ///< these guarded by the mutex
+  std::optional<HeardChassis> chassis_;
 
   DedicatedLane watch_lane_{
       LaneOptions{"the lane of the chassis' signals"}};  // before its users: they leave its queue first

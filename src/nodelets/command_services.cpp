@@ -6,6 +6,7 @@
 #include "external_command/core/text.h"
 #include "external_command/ros/log_lane.h"
 #include "external_command/ros/status.h"
+#include "serve.h"
 
 namespace external_command {
 
@@ -45,13 +46,7 @@ template <class Service>
 void CommandServices::serve(const std::string& key, std::string name, DedicatedLane* lane,
                             BoundedServiceCallbacks<Service> callbacks) {
   parameters_.readName(key, &name);
-  ros::AdvertiseServiceOptions options =
-      boundedService<Service>(name, std::move(callbacks), context_->params().requests);
-  options.callback_queue = lane->queue();
-  servers_.push_back(nh_.advertiseService(options));
-  if (servers_.back()) return;
-  throw InternalError(text("service ", nh_.resolveName(name),
-                           " is advertised by this process already; is the component loaded twice?"));
+  servers_.push_back(serveOn<Service>(lane, nh_, name, std::move(callbacks), context_->params().requests));
 }
 
 GetCommandStatus::Response CommandServices::status(const GetCommandStatus::Request& request) const {

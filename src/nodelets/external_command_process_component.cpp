@@ -85,7 +85,8 @@ void ExternalCommandProcessComponent::start() {
 }
 
 void ExternalCommandProcessComponent::open() {
-  services_ = std::make_unique<CommandServices>(getNodeHandle(), parameters(), contextPtr());
+  command_services_ = std::make_unique<CommandServices>(getNodeHandle(), parameters(), contextPtr());
+  map_services_ = std::make_unique<MapServices>(getNodeHandle(), parameters(), contextPtr());
   tellWhatIsServed();
 }
 

@@ -9,6 +9,7 @@
 
 #include "command_services.h"
 #include "external_command/ros/command_processor.h"
+#include "map_services.h"
 
 namespace external_command {
 
@@ -31,7 +32,8 @@ class ExternalCommandProcessComponent : public CommandProcessor {
   std::string load(const std::string& type);
 
   nodelet::Loader loader_;
-  std::unique_ptr<CommandServices> services_;
+  std::unique_ptr<CommandServices> command_services_;
+  std::unique_ptr<MapServices> map_services_;
 };
 
 }  // namespace external_command

@@ -31,6 +31,8 @@ double FreeSpaceCommandProcessor::planningTime(const FreeSpaceCommand& /*command
 void FreeSpaceCommandProcessor::start() {
   MotionCommandProcessor<FreeSpace>::start();
   planner_.emplace(getNodeHandle(), parameters(), context());
+  needsPose();
+  if (planner_->hasGrid()) needs("obstacle_grid", [this] { return planner_->gridWords(); });
   goal_limits_.read(parameters(), "goal");
 }
 

@@ -13,6 +13,9 @@ LaneFollowCommandProcessor::~LaneFollowCommandProcessor() { stopServing(); }
 void LaneFollowCommandProcessor::start() {
   MotionCommandProcessor<LaneFollow>::start();
   planner_.emplace(getNodeHandle(), parameters(), context());
+  needsMap();
+  needsPose();
+  if (planner_->hasGrid()) needs("obstacle_grid", [this] { return planner_->gridWords(); });
 }
 
 void LaneFollowCommandProcessor::check(const LaneFollowCommand& command) const {

@@ -20,6 +20,11 @@ struct ManoeuvrePlanner::LatestGrid {
   ros::Time stamp;  ///< of the message, or when it came where it has none
 };
 
+struct ManoeuvrePlanner::PlacedGrid {
+  nav_msgs::OccupancyGrid::ConstPtr message;
+  Pose2d frame;  ///< of the message, in the map
+};
+
 namespace {
 
 constexpr double kLeastBudget = 2e-3;  // that planning can begin with [s]
@@ -89,9 +94,8 @@ ManoeuvrePlanner::ManoeuvrePlanner(ros::NodeHandle nh, const ParameterReader& re
 
 ManoeuvrePlanner::~ManoeuvrePlanner() = default;
 
-std::optional<OccupancyGrid> ManoeuvrePlanner::grid() const {
+ManoeuvrePlanner::PlacedGrid ManoeuvrePlanner::requireGrid() const {
   const std::string& topic = grid_params_.topic;
-  if (topic.empty()) return std::nullopt;
   nav_msgs::OccupancyGrid::ConstPtr message;
   ros::Time stamp;
   {
@@ -104,10 +108,21 @@ std::optional<OccupancyGrid> ManoeuvrePlanner::grid() const {
   }
   requireFresh(stamp);
   try {
-    return toGrid(*message, context_.vehiclePose().ofFrame(message->header.frame_id), grid_params_);
+    return {message, context_.vehiclePose().ofFrame(message->header.frame_id)};
   } catch (const InvalidRequest& error) {
     throw NotReady(text("the obstacle grid on ", topic, " cannot be placed: ", error.what()));
   }
+}
+
+std::optional<OccupancyGrid> ManoeuvrePlanner::grid() const {
+  if (!hasGrid()) return std::nullopt;
+  const PlacedGrid grid = requireGrid();
+  return toGrid(*grid.message, grid.frame, grid_params_);
+}
+
+std::string ManoeuvrePlanner::gridWords() const {
+  requireGrid();
+  return text("an obstacle grid comes on ", grid_params_.topic);
 }
 
 void ManoeuvrePlanner::requireFresh(ros::Time stamp) const {

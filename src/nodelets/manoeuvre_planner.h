@@ -37,6 +37,11 @@ class ManoeuvrePlanner {
   /// @throws NotReady  it has not come, or is too old.
   std::optional<OccupancyGrid> grid() const;
 
+  bool hasGrid() const { return !grid_params_.topic.empty(); }
+
+  /// How it stands with the grid, where one is configured. @throws NotReady  as grid()
+  std::string gridWords() const;
+
   /// `parts` with the live obstacle grid added, where one is configured.
   /// @throws NotReady  the grid has not come, or is too old.
   Region regionOf(Region::Parts parts) const;
@@ -55,6 +60,10 @@ class ManoeuvrePlanner {
 
  private:
   struct LatestGrid;
+  struct PlacedGrid;
+
+  /// @throws NotReady  as grid()
+  PlacedGrid requireGrid() const;
 
   /// @throws NotReady  a grid of that stamp is too old, or of the future.
   void requireFresh(ros::Time stamp) const;

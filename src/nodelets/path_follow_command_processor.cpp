@@ -131,6 +131,7 @@ PathFollowCommandProcessor::~PathFollowCommandProcessor() {
 void PathFollowCommandProcessor::start() {
   MotionCommandProcessor<PathFollow>::start();
   start_limits_.read(parameters(), "start");
+  if (start_limits_.refusal > 0.0) needsPose();
 }
 
 void PathFollowCommandProcessor::open() {

@@ -42,6 +42,9 @@ PreciseParkingCommandProcessor::~PreciseParkingCommandProcessor() { stopServing(
 void PreciseParkingCommandProcessor::start() {
   MotionCommandProcessor<PreciseParking>::start();
   planner_.emplace(getNodeHandle(), parameters(), context());
+  needsMap();
+  needsPose();
+  if (planner_->hasGrid()) needs("obstacle_grid", [this] { return planner_->gridWords(); });
   parameters().readWithin("straight_last", 0.1, 20.0, &straight_last_);
   parameters().readWithin("access_distance", 0.0, 100.0, &access_distance_);
 }

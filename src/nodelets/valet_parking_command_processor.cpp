@@ -76,6 +76,9 @@ ValetParkingCommandProcessor::~ValetParkingCommandProcessor() { stopServing(); }
 void ValetParkingCommandProcessor::start() {
   MotionCommandProcessor<ValetParking>::start();
   planner_.emplace(getNodeHandle(), parameters(), context());
+  needsMap();
+  needsPose();
+  if (planner_->hasGrid()) needs("obstacle_grid", [this] { return planner_->gridWords(); });
   params_ = readParkingParams(parameters());
   reportSmallSpaces();
 }

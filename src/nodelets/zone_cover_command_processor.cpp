@@ -58,6 +58,9 @@ ZoneCoverCommandProcessor::~ZoneCoverCommandProcessor() {
 void ZoneCoverCommandProcessor::start() {
   MotionCommandProcessor<ZoneCover>::start();
   planner_.emplace(getNodeHandle(), parameters(), context());
+  needsMap();
+  needsPose();
+  if (planner_->hasGrid()) needs("obstacle_grid", [this] { return planner_->gridWords(); });
   coverage_params_ = readCoverageParams(parameters().within("coverage"));
   parameters().readWithin("access_distance", 0.0, 100.0, &access_distance_);
   std::string folder;

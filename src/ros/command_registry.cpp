@@ -29,6 +29,11 @@ void setProgress(const std::optional<MotionProgress>& progress, CommandStatus* s
 
 }  // namespace
 
+std::string silenceWords(double limit) {
+  return text("nothing was reported about it for more than ", limit,
+              " s (~planner_silence_timeout); is the planner running?");
+}
+
 CommandRegistry::CommandRegistry(Listener listener, ReportRules rules)
     : listener_(std::move(listener)), rules_(rules), next_id_(firstFreshId()) {}
 
@@ -139,10 +144,14 @@ void CommandRegistry::noteSilence(double limit) {
   for (auto& [serial, record] : records_) {
     if (record.state != State::kSent || !record.silence.empty()) continue;
     if ((now - record.last_report).toSec() < limit) continue;
-    record.silence = text("nothing was reported about it for more than ", limit,
-                          " s (~planner_silence_timeout); is the planner running? Before that: ");
+    record.silence = silenceWords(limit) + " Before that: ";
     say(serial, &record);
   }
+}
+
+std::optional<CommandStatus> CommandRegistry::newest() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return records_.empty() ? std::nullopt : std::optional<CommandStatus>(records_.rbegin()->second.status);
 }
 
 std::vector<CommandStatus> CommandRegistry::running() const {

@@ -31,6 +31,7 @@ CommandService::~CommandService() {
 
 void CommandService::stopServing() {
   server_.shutdown();
+  conditions_.clear();
   if (lane_) cancelWork();
   lane_.reset();  // joins
 }
@@ -49,6 +50,21 @@ void CommandService::start() {
     report_subscribers_.push_back(
         subscribeBounded<CommandStatus>(nh, topic, 100, report, context().params().requests, LongTexts::kTaken));
   }
+}
+
+void CommandService::needs(const std::string& condition, Conditions::Check check) {
+  conditions_.push_back(context().conditions().add(condition, owner().service, std::move(check)));
+}
+
+void CommandService::needsMap() {
+  needs("map", [&context = context()] { return context.mapWords(); });
+}
+
+void CommandService::needsPose() {
+  needs("pose", [&context = context()] {
+    context.vehiclePose().get();
+    return "the vehicle's pose is known";
+  });
 }
 
 void CommandService::open() {
@@ -114,6 +130,7 @@ void CommandService::tell(const CommandStatus& status) {
   const bool is_refused = status.status == CommandStatus::ERROR;
   const std::string command = text(service_name_, " ", status.command_id);
   if (is_refused) {
+    context().refusals().add(status.error_code);
     const std::uint64_t count = ++refused_;
     logLater(LogLevel::kWarn, refusals_,
              text(command, " refused: ", status.message, " (", count, " refused since the start)"));

@@ -196,6 +196,25 @@ void MotionFlow::send(const CommandGate::Ticket& ticket, MotionPlan&& plan) cons
   context_.display().show(std::move(plan.scene));
 }
 
+std::string MotionFlow::plannerWords() const {
+  const ContextParams& params = context_.params();
+  const std::vector<ros::Publisher> heard =
+      params.planner_follows_path ? std::vector<ros::Publisher>{publishers_.path} : publishers_.commands;
+  const auto isListenedTo = [](const ros::Publisher& publisher) { return publisher.getNumSubscribers() > 0; };
+  const auto listened = std::find_if(heard.begin(), heard.end(), isListenedTo);
+  if (listened == heard.end()) {
+    throw NotReady(text("nobody listens to ", heard.front().getTopic(), "; is the planner running?"));
+  }
+  const bool should_report = !params.planner_follows_path && params.motion_watch.arrival != ArrivalSource::kPose;
+  const auto motion = context_.gate().motion();
+  const double limit = params.planner_silence_timeout;
+  if (should_report && motion && context_.registry().silenceOf(motion->command.serial) >= limit) {
+    throw NotReady(text("command ", motion->command.id, ": ", silenceWords(limit)));
+  }
+  return text("somebody listens to ", listened->getTopic(),
+              context_.hasPlannerReported() ? ", and reports" : "; nothing was reported yet");
+}
+
 double MotionFlow::cappedSpeed(double target_speed, PlanReport* report) const {
   context_.params().limits.requireSpeed(target_speed);
   const double limit = context_.params().vehicle.max_speed;

@@ -50,11 +50,7 @@ std::shared_ptr<PlanningPool> PlanningPool::acquire(const PlanningLimits& limits
 
 PlanningPool::Slot PlanningPool::take(Kind kind, const std::function<void()>& check) {
   std::unique_lock<std::mutex> lock(mutex_);
-  if (!isFree(kind) && waiting(kind) >= most_waiting_) {
-    throw NotReady(text("busy: ", commands_, " commands and ", dry_runs_, " dry runs are being planned, ",
-                        waiting_commands_, " and ", waiting_dry_runs_,
-                        " wait (~planning_threads, ~planning_queue); send it again in a moment"));
-  }
+  requireRoomLocked(kind);
   ++waiting(kind);
   try {
     while (!isFree(kind)) {
@@ -69,13 +65,31 @@ PlanningPool::Slot PlanningPool::take(Kind kind, const std::function<void()>& ch
     throw;
   }
   --waiting(kind);
-  ++(kind == Kind::kCommand ? commands_ : dry_runs_);
+  ++(kind == Kind::kCommand ? load_.commands : load_.dry_runs);
   return {this, kind};
 }
 
 bool PlanningPool::isFree(Kind kind) const {
-  if (kind == Kind::kCommand) return commands_ < most_commands_;
-  return dry_runs_ < most_dry_runs_ && waiting_commands_ == 0;
+  if (kind == Kind::kCommand) return load_.commands < most_commands_;
+  return load_.dry_runs < most_dry_runs_ && load_.waiting_commands == 0;
+}
+
+void PlanningPool::requireRoomLocked(Kind kind) const {
+  const int waiting = kind == Kind::kCommand ? load_.waiting_commands : load_.waiting_dry_runs;
+  if (isFree(kind) || waiting < most_waiting_) return;
+  throw NotReady(text("busy: ", load_.commands, " commands and ", load_.dry_runs, " dry runs are being planned, ",
+                      load_.waiting_commands, " and ", load_.waiting_dry_runs,
+                      " wait (~planning_threads, ~planning_queue); send it again in a moment"));
+}
+
+void PlanningPool::requireRoom(Kind kind) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  requireRoomLocked(kind);
+}
+
+PlanningPool::Load PlanningPool::load() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return load_;
 }
 
 void PlanningPool::Slot::run(const std::function<void()>& job) const {
@@ -87,7 +101,7 @@ void PlanningPool::Slot::run(const std::function<void()>& job) const {
 PlanningPool::Slot::~Slot() {
   if (pool_ == nullptr) return;
   const std::lock_guard<std::mutex> lock(pool_->mutex_);
-  --(kind_ == Kind::kCommand ? pool_->commands_ : pool_->dry_runs_);
+  --(kind_ == Kind::kCommand ? pool_->load_.commands : pool_->load_.dry_runs);
   pool_->changed_.notify_all();
 }
 

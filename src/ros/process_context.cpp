@@ -7,6 +7,7 @@
 #include "external_command/PlanningPad.h"
 #include "external_command/core/error.h"
 #include "external_command/core/text.h"
+#include "external_command/ros/diagnostics.h"
 #include "external_command/ros/frame_id.h"
 #include "external_command/ros/map_store.h"
 #include "external_command/ros/parameter_check.h"
@@ -18,6 +19,7 @@ namespace {
 
 constexpr double kSilenceCheckPeriod = 0.5;  // [s]
 constexpr double kMotionPeriod = 0.1;        // [s]
+constexpr double kReadinessPeriod = 0.2;     // [s]
 constexpr double kMemoryPeriod = 3.0;        // without a request, after which memory is given back [s]
 
 std::shared_ptr<const Router> routerOf(const ContextParams& params) {
@@ -93,6 +95,8 @@ ContextParams readContextParams(const ParameterReader& reader) {
   reader.readName("output_command_status_name", &params.status_topic);
   reader.readName("progress_name", &params.progress_topic);
   reader.readWithin("progress_rate", 0.01, 100.0, &params.progress_rate);
+  reader.readName("readiness_name", &params.readiness_topic);
+  reader.read("planner_follows_path", &params.planner_follows_path);
   reader.readName("command_log_name", &params.log_topic);
   reader.readName("routing_response_name", &params.routing_response_topic);
   reader.readName("path_name", &params.path_topic);
@@ -140,6 +144,8 @@ ProcessContext::ProcessContext(const ros::NodeHandle& nh, const ros::NodeHandle&
           params_.reports),
       motion_watch_(params_.motion_watch, params_.vehicle, vehicle_pose_, gate_, registry_),
       progress_topic_(advertise<CommandStatus>(params_.progress_topic, false), gate_, registry_),
+      readiness_topic_(advertise<Readiness>(params_.readiness_topic, true), conditions_),
+      diagnostics_(makeDiagnostics(parameters)),
       display_(nh_, params_.display, router_ ? router_->mapPtr() : nullptr, [this] { return placeOf(vehicle_pose_); }),
       housekeeping_(LaneOptions{"the housekeeping lane"}),
       reports_(LaneOptions{"the lane of the vehicle's reports"}) {
@@ -153,6 +159,8 @@ ProcessContext::ProcessContext(const ros::NodeHandle& nh, const ros::NodeHandle&
     return nh_.createSteadyTimer(options);
   };
   memory_timer_ = every(kMemoryPeriod, housekeeping_, [this] { giveBackMemory(); });
+  readiness_timer_ = every(kReadinessPeriod, housekeeping_, [this] { readiness_topic_.update(); });
+  diagnostics_timer_ = every(diagnostics_->period(), housekeeping_, [this] { diagnostics_->publish(); });
   silence_timer_ =
       every(kSilenceCheckPeriod, reports_, [this] { registry_.noteSilence(params_.planner_silence_timeout); });
   motion_timer_ = every(kMotionPeriod, reports_, [this] { motion_watch_.look(); });
@@ -192,7 +200,10 @@ Cancellation ProcessContext::cancelById(std::int64_t command_id, const std::stri
   return cancel(*serial, by);
 }
 
+ProcessContext::~ProcessContext() = default;
+
 void ProcessContext::takeReport(CommandStatus report, const std::string& processor) {
+  last_report_ = ros::SteadyTime::now().toSec();
   report.message = statusMessage(report.message);
   if (registry_.report(report, processor)) return;
   logLater(LogLevel::kWarn, odd_reports_,
@@ -211,6 +222,12 @@ void ProcessContext::giveBackMemory() {
   last_arrival_ = arrival;
   if (is_quiet && has_memory_) malloc_trim(0);
   has_memory_ = !is_quiet;
+}
+
+std::string ProcessContext::mapWords() const {
+  const HdMap& map = requireRouter().map();
+  return text("the map ", params_.map_file, ": ", map.lanes().size(), " lanes, ", map.parkingSpaces().size(),
+              " parking spaces, ", map.areas().size(), " areas");
 }
 
 const Router& ProcessContext::requireRouter() const {

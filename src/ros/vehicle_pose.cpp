@@ -56,6 +56,15 @@ Pose2d VehiclePose::get() const {
   return pose;
 }
 
+std::optional<double> VehiclePose::age() const {
+  try {
+    const ros::Time stamp = feed_.store().lookup(map_frame_, base_frame_).header.stamp;
+    return stamp.isZero() ? 0.0 : ros::Time::now().toSec() - stamp.toSec();
+  } catch (const tf2::TransformException&) {
+    return std::nullopt;
+  }
+}
+
 std::optional<double> VehiclePose::height() const {
   try {
     const double z = feed_.store().lookup(map_frame_, base_frame_).transform.translation.z;

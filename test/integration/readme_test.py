@@ -17,7 +17,7 @@ from external_command.srv import LaneFollow
 
 README = os.path.join(rospkg.RosPack().get_path("external_command"), "README.md")
 SERVICES = {"lane_follow", "valet_parking", "free_space", "path_follow", "precise_parking", "zone_cover", "action",
-            "speed", "chassis", "command_status", "current_command", "cancel_command"}
+            "speed", "chassis", "command_status", "current_command", "cancel_command", "map_objects"}
 
 
 def examples():
@@ -26,9 +26,7 @@ def examples():
 
 
 def answer_of(call):
-    printed = subprocess.run(["bash", "-c", call], stdout=subprocess.PIPE, check=True, timeout=60).stdout
-    answer = yaml.safe_load(printed)
-    return answer["motion"] if "current_command" in call else answer["status"]
+    return yaml.safe_load(subprocess.run(["bash", "-c", call], stdout=subprocess.PIPE, check=True, timeout=60).stdout)
 
 
 class ReadmeTest(unittest.TestCase):
@@ -43,7 +41,11 @@ class ReadmeTest(unittest.TestCase):
     def test_every_example_works(self):
         for call in examples():
             with self.subTest(call=call):
-                status = answer_of(call)
+                answer = answer_of(call)
+                if "map_objects" in call:
+                    self.assertEqual(len(answer["objects"]), 5, answer)
+                    continue
+                status = answer["motion"] if "current_command" in call else answer["status"]
                 if "command_status" in call or "cancel_command" in call:
                     self.assertEqual(status["status"], CommandStatus.UNKNOWN, status)
                 else:

@@ -57,6 +57,10 @@ TEST(PlanningPool, AnswersBusyAtOnceBeyondThoseThatMayWait) {
     });
   });
   waits.get_future().wait();
+  EXPECT_THROW(pool.requireRoom(Kind::kDryRun), NotReady);
+  EXPECT_NO_THROW(pool.requireRoom(Kind::kCommand));
+  EXPECT_EQ(pool.load().dry_runs, 1);
+  EXPECT_EQ(pool.load().waiting_dry_runs, 1);
   try {
     pool.take(Kind::kDryRun, [] { FAIL() << "it must not wait"; });
     FAIL() << "it must be refused";

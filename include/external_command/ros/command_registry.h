@@ -37,6 +37,9 @@ struct MotionProgress {
   double time_left = 0.0;      ///< [s]
 };
 
+/// That nothing was reported about a command for more than `limit` [s].
+std::string silenceWords(double limit);
+
 /// Which of the vehicle's reports count.
 struct ReportRules {
   double clock_skew = 0.5;  ///< a report stamped this much before its command was sent still counts [s]
@@ -98,6 +101,9 @@ class CommandRegistry {
   /// Notes beside the message of each command sent longer than `limit` [s] ago that nothing was reported about it
   /// since.
   void noteSilence(double limit);
+
+  /// The last that came; nullopt where none did.
+  std::optional<CommandStatus> newest() const;
 
   /// Of all running commands, in the order of their admission.
   std::vector<CommandStatus> running() const;

@@ -44,6 +44,12 @@ class CommandService : public CommandProcessor {
   /// Reads parameters and subscribes to the vehicle's reports.
   void start() override;
 
+  /// Declares from start() on, until stopServing(), what commands of this service need: they are refused, or do not
+  /// end, where `check` throws. See Conditions.
+  void needs(const std::string& condition, Conditions::Check check);
+  void needsMap();
+  void needsPose();
+
   /// Advertises the service. @throws InternalError  another processor of this process has that service.
   void open() override;
 
@@ -102,6 +108,7 @@ class CommandService : public CommandProcessor {
   std::atomic<std::uint64_t> refused_{0};
   LogThrottle refusals_{0.05};
   ros::Publisher log_publisher_;
+  std::vector<Conditions::Entry> conditions_;
   std::vector<ros::Subscriber> report_subscribers_;
   ros::ServiceServer server_;
   std::unique_ptr<RefusalPace> refusal_pace_;

@@ -60,6 +60,11 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
     std::string history = "planning_command_history";
     this->parameters().readName("planning_command_history_name", &history);
     flow_.emplace(this->context(), this->outputTopics("planning/command"), history);
+    this->needs("planner", [this] { return flow_->plannerWords(); });
+    this->needs("planning", [&pool = this->context().planningPool()] {
+      pool.requireRoom(PlanningPool::Kind::kCommand);
+      return "commands are planned";
+    });
   }
 
   void cancelWork() override { plans_in_work_.cancelForGood(); }

@@ -37,6 +37,9 @@ class MotionFlow {
   /// @throws Cancelled, Superseded
   void send(const CommandGate::Ticket& ticket, MotionPlan&& plan) const;
 
+  /// How it stands with the planner. @throws NotReady  nobody listens, or it says nothing about what it should drive.
+  std::string plannerWords() const;
+
   /// The vehicle's limit where `target_speed` exceeds it, with a warning in `report`.
   /// @throws InvalidRequest  it exceeds ContextParams::limits.
   double cappedSpeed(double target_speed, PlanReport* report) const;

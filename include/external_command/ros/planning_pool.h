@@ -60,20 +60,29 @@ class PlanningPool {
   /// @throws NotReady  too many wait already.
   Slot take(Kind kind, const std::function<void()>& check);
 
+  struct Load {
+    int commands = 0, dry_runs = 0;  ///< in work
+    int waiting_commands = 0, waiting_dry_runs = 0;
+  };
+  Load load() const;
+
+  /// @throws NotReady  as take()
+  void requireRoom(Kind kind) const;
+
   /// How many threads of one service may be in here at once: one of them is always there to say "busy".
   unsigned threadsPerService() const;
 
  private:
   bool isFree(Kind kind) const;
-  int& waiting(Kind kind) { return kind == Kind::kCommand ? waiting_commands_ : waiting_dry_runs_; }
+  void requireRoomLocked(Kind kind) const;
+  int& waiting(Kind kind) { return kind == Kind::kCommand ? load_.waiting_commands : load_.waiting_dry_runs; }
 
   const int most_commands_ = 2;
   const int most_dry_runs_;
   const int most_waiting_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
-  int commands_ = 0, dry_runs_ = 0;  ///< in work
-  int waiting_commands_ = 0, waiting_dry_runs_ = 0;
+  Load load_;
   DedicatedLane lane_;
 };
 

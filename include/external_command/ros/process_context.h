@@ -3,6 +3,7 @@
 
 #include <ros/node_handle.h>
 
+#include <atomic>
 #include <boost/signals2/signal.hpp>
 #include <map>
 #include <memory>
@@ -11,6 +12,7 @@
 
 #include "external_command/ros/command_gate.h"
 #include "external_command/ros/command_registry.h"
+#include "external_command/ros/conditions.h"
 #include "external_command/ros/dedicated_lane.h"
 #include "external_command/ros/display.h"
 #include "external_command/ros/log_lane.h"
@@ -21,10 +23,14 @@
 #include "external_command/ros/planning_pool.h"
 #include "external_command/ros/plans_in_work.h"
 #include "external_command/ros/progress_topic.h"
+#include "external_command/ros/readiness_topic.h"
+#include "external_command/ros/refusal_counts.h"
 #include "external_command/ros/request_limits.h"
 #include "external_command/ros/vehicle_pose.h"
 
 namespace external_command {
+
+class Diagnostics;
 
 /// What all processors of one namespace share. Read once, by whoever makes the context.
 struct ContextParams {
@@ -45,6 +51,8 @@ struct ContextParams {
   std::string status_topic = "external_command/status";
   std::string progress_topic = "external_command/progress";
   double progress_rate = 2.0;  ///< of that topic [Hz]
+  std::string readiness_topic = "external_command/readiness";
+  bool planner_follows_path = false;  ///< the planner listens to path_topic instead of commands, and reports nothing
   std::string log_topic = "external_command/log";
   std::string routing_response_topic = "routing_response";
   std::string path_topic = "external_command/path";
@@ -75,6 +83,7 @@ class ProcessContext {
   static std::shared_ptr<ProcessContext> acquire(const ros::NodeHandle& nh, const ros::NodeHandle& parameters);
 
   ProcessContext(const ros::NodeHandle& nh, const ros::NodeHandle& parameters);
+  ~ProcessContext();
 
   const ContextParams& params() const { return params_; }
 
@@ -91,6 +100,18 @@ class ProcessContext {
   PlanningPool& planningPool() { return *planning_pool_; }
   PlanningPads& planningPads() { return planning_pads_; }
   Display& display() { return display_; }
+
+  /// What the commands of all processors need, for readiness and diagnostics.
+  Conditions& conditions() { return conditions_; }
+
+  /// The map in a few words. @throws NotReady  as requireRouter()
+  std::string mapWords() const;
+
+  /// True where the planner has reported anything since the start.
+  bool hasPlannerReported() const { return last_report_ > 0.0; }
+
+  /// Of commands, since the start.
+  RefusalCounts& refusals() { return refusals_; }
 
   MasterWatch& masterWatch() { return *master_watch_; }
 
@@ -154,6 +175,8 @@ class ProcessContext {
   /// for some milliseconds then.
   void giveBackMemory();
 
+  std::unique_ptr<Diagnostics> makeDiagnostics(const ros::NodeHandle& parameters);
+
   const ContextParams params_;
   const std::shared_ptr<MasterWatch> master_watch_ = MasterWatch::ofProcess();
   ros::NodeHandle nh_;
@@ -169,6 +192,11 @@ class ProcessContext {
   CommandRegistry registry_;
   MotionWatch motion_watch_;
   ProgressTopic progress_topic_;
+  Conditions conditions_;
+  ReadinessTopic readiness_topic_;
+  RefusalCounts refusals_;
+  std::atomic<double> last_report_{0.0};  ///< of the planner, steady time [s]; 0: none came
+  std::unique_ptr<Diagnostics> diagnostics_;
   SentMotions sent_motions_;
   std::mutex sending_mutex_;
   Display display_;
@@ -176,7 +204,7 @@ class ProcessContext {
   DedicatedLane housekeeping_, reports_;  // after all that their callbacks use, before what is bound to their queues
   ArrivalNumber last_arrival_ = 0;        ///< giveBackMemory() looked at it
   bool has_memory_ = false;               ///< that was not given back since
-  ros::SteadyTimer silence_timer_, motion_timer_, progress_timer_, memory_timer_;
+  ros::SteadyTimer silence_timer_, motion_timer_, progress_timer_, readiness_timer_, diagnostics_timer_, memory_timer_;
 };
 
 }  // namespace external_command

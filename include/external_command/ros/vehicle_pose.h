@@ -22,6 +22,10 @@ class VehiclePose {
   /// @throws NotReady  there is none, it is too old, or of the future; the text names the frames and the age.
   Pose2d get() const;
 
+  /// Of the newest transform, whether or not get() takes it [s]; 0 of one that always holds, nullopt where there is
+  /// none.
+  std::optional<double> age() const;
+
   /// Height of `base_frame` in `map_frame` [m]; nullopt where it is not known: a localization in the plane says 0.
   std::optional<double> height() const;
 

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/service_server.h>
+
+#include <string>
+#include <utility>
+
+#include "external_command/core/text.h"
+#include "external_command/ros/bounded_service.h"
+#include "external_command/ros/dedicated_lane.h"
+
+namespace external_command {
+
+/// A service of bounded requests on a lane.
+/// @throws InternalError  this process has a service of that name already.
+template <class Service>
+ros::ServiceServer serveOn(DedicatedLane* lane, ros::NodeHandle nh, const std::string& name,
+                           BoundedServiceCallbacks<Service> callbacks, const RequestLimits& limits) {
+  ros::AdvertiseServiceOptions options = boundedService<Service>(name, std::move(callbacks), limits);
+  options.callback_queue = lane->queue();
+  ros::ServiceServer server = nh.advertiseService(options);
+  if (server) return server;
+  throw InternalError(
+      text("service ", nh.resolveName(name), " is advertised by this process already; is the component loaded twice?"));
+}
+
+}  // namespace external_command
