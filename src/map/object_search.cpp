@@ -80,7 +80,7 @@ class Search {
       const Lane& lane = map_.lane(match.lane);
       if (lane.is_reversed) continue;
       for (const auto& [kind, id] :
-           {std::pair(MapObjectKind::kLane, &lane.id), {MapObjectKind::kRoad, &lane.road_id}}) {
+           {std::pair(MapObjectKind::kLane, &lane.id), std::pair(MapObjectKind::kRoad, &lane.road_id)}) {
         if (!wants(kind) || id->empty() || !isWanted(*id) || !seen.emplace(kind, *id).second) continue;
         found->push_back({match.frenet.distance, kind, id, match.lane, match.frenet.s});
       }

@@ -31,7 +31,11 @@ CommandServices::CommandServices(const ros::NodeHandle& nh, const ParameterReade
        [](const ros::M_string&) { return refusal<GetCommandStatus::Response>(); }});
   serve<GetCurrentCommand>("current_command_service_name", "external_command/current_command", &status_lane_,
                            {[this](const auto&, const MessageSize&, const ros::M_string&) { return current(); },
-                            [](const ros::M_string&) { return GetCurrentCommand::Response(); }});
+                            [](const ros::M_string&) {
+                              GetCurrentCommand::Response response;
+                              response.motion = statusFrom(std::current_exception(), 0);
+                              return response;
+                            }});
   serve<CancelCommand>(
       "cancel_command_service_name", "external_command/cancel_command", &cancel_lane_,
       {[this](const auto& request, const MessageSize&, const ros::M_string& header) { return cancel(request, header); },

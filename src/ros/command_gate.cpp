@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <utility>
 
@@ -80,7 +81,8 @@ void CommandGate::cancel(CommandSerial serial, const std::function<bool()>& end,
                          const std::function<void(const ros::Time& stamp)>& clear) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!end() || !motion_ || motion_->command.serial != serial) return;
-  clear(newest_.serial == serial ? ros::Time::now() : newest_began_);
+  const ros::Time now = ros::Time::now();  // simulated time may have been set back
+  clear(newest_.serial == serial ? now : std::min(now, newest_began_));
   if (motion_->topics) motion_->topics->withdraw();
   motion_.reset();
 }

@@ -66,6 +66,21 @@ class CancelTest(unittest.TestCase):
         rospy.sleep(0.5)
         self.assertEqual(self.vehicle.speed, 0.0)
 
+    def test_a_vehicle_that_hears_late_of_an_earlier_clearing_drives_on(self):
+        """Topics are not in step: the newer command may come before the pad that clears the one before it."""
+        self.vehicle.drive_straight()
+        self.vehicle.wait_until_moving()
+        late = PlanningPad(action=PlanningPad.CLEAR_PLANNING)
+        late.header.stamp = self.last_command().header.stamp - rospy.Duration(0.001)
+        pads = rospy.Publisher("planning/pad", PlanningPad, queue_size=1)
+        support.wait_until(lambda: pads.get_num_connections() > 1, "the vehicle takes pads")
+        pads.publish(late)
+        rospy.sleep(0.5)
+        self.assertGreater(self.vehicle.speed, 0.5)
+        late.header.stamp = rospy.Time.now()
+        pads.publish(late)
+        self.vehicle.wait_until_standing()
+
     def test_an_ended_command_clears_nothing(self):
         motion = self.vehicle.drive_straight(length=5.0)
         support.wait_for_status(motion, CommandStatus.FINISHED)

@@ -16,7 +16,8 @@ import support
 from component import Component
 from external_command import msg
 from external_command.client import SERVICES
-from external_command.srv import Action, FreeSpace, LaneFollow, PathFollow, Speed, ZoneCover
+from external_command.srv import (Action, CancelCommand, FindMapObjects, FreeSpace, GetCommandStatus, GetCurrentCommand,
+                                  LaneFollow, PathFollow, Speed, ZoneCover)
 
 sys.path.append(os.path.join(rospkg.RosPack().get_path("external_command"), "scripts", "lib"))
 import fuzz_bytes  # noqa: E402  what scripts/fuzz sends
@@ -73,6 +74,22 @@ class HostileRequestsTest(unittest.TestCase):
                 caller.close()
                 self.assertGreater(refused, 0, service)
             self.assertLess(resident(started.pid) - before, MOST_MEMORY)
+            self.assert_stops(started)
+
+    def test_answers_damaged_questions_about_commands_and_map(self):
+        questions = {"command_status": GetCommandStatus, "current_command": GetCurrentCommand,
+                     "cancel_command": CancelCommand, "map_objects": FindMapObjects}
+        with component() as started:
+            self.assert_stops(started)
+            for service, service_class in questions.items():
+                name = NAMESPACE + "/external_command/" + service
+                support.service(name, service_class)
+                caller = fuzz_bytes.RawCaller(name, service_class)
+                for request in (b"\xff" * 3, b"\xff" * 500):
+                    answer = caller.call(request)
+                    whole = getattr(answer, "status", None) or getattr(answer, "motion", answer)
+                    self.assertEqual(whole.error_code, msg.CommandStatus.INVALID_REQUEST, answer)
+                caller.close()
             self.assert_stops(started)
 
     def test_drops_messages_that_state_more_than_they_hold(self):

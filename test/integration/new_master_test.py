@@ -19,7 +19,7 @@ from processes import Launch, Master, Node
 
 NODE = "/apollo/external_command"
 SERVICES = ["lane_follow", "valet_parking", "action", "free_space", "path_follow", "speed", "chassis", "precise_parking",
-            "zone_cover", "command_status"]
+            "zone_cover", "command_status", "current_command", "cancel_command", "map_objects"]
 NOTICED = 5.0  # at most from the new master to the old state [s]
 
 
