@@ -92,10 +92,14 @@ class Search {
                    std::vector<Candidate>* found) const {
     if (!wants(kind)) return;
     for (std::size_t i = 0; i < objects.size(); ++i) {
-      if (!isWanted(objects[i].id)) continue;
+      if (!isWanted(objects[i].id) || (radius && boxDistanceTo(objects[i].polygon.box()) > *radius)) continue;
       const double distance = radius ? distanceTo(objects[i].polygon) : 0.0;
       if (!radius || distance <= *radius) found->push_back({distance, kind, &objects[i].id, i});
     }
+  }
+
+  double boxDistanceTo(const BoundingBox& box) const {
+    return (box.min - *query_.near).cwiseMax(*query_.near - box.max).cwiseMax(0.0).norm();
   }
 
   double distanceTo(const Polygon& polygon) const {

@@ -7,11 +7,12 @@ import unittest
 
 import rospy
 import rostest
+from diagnostic_msgs.msg import DiagnosticArray
 from rosgraph_msgs.msg import Clock
 
 import support
-from external_command.msg import CommandStatus, LaneFollowCommand, Pose
-from external_command.srv import LaneFollow
+from external_command.msg import CommandStatus, LaneFollowCommand, Pose, Readiness
+from external_command.srv import CancelCommand, LaneFollow
 from localization import Localization
 
 
@@ -29,6 +30,18 @@ class SimulatedTime:
 
 
 class SimTimeTest(unittest.TestCase):
+    def test_before_time_begins_it_is_told_what_is_missing(self):
+        self.assertEqual(rospy.get_time(), 0.0, "nobody publishes a clock yet")
+        readiness = support.Collector("external_command/readiness", Readiness)
+        support.wait_until(lambda: readiness.messages, "the readiness is told")
+        conditions = {condition.name: condition for condition in readiness.messages[-1].conditions}
+        self.assertTrue(conditions["map"].is_met)
+        self.assertFalse(conditions["pose"].is_met)
+        diagnostics = support.Collector("/diagnostics", DiagnosticArray)
+        support.wait_until(lambda: len(diagnostics.messages) > 3, "diagnostics go on")
+        unknown = support.service("external_command/cancel_command", CancelCommand)(command_id=1)
+        self.assertEqual(unknown.status.error_code, CommandStatus.UNKNOWN_ID)
+
     def test_the_pose_is_known_again_after_time_jumped_back(self):
         simulated = SimulatedTime(5000.0)
         support.wait_until(lambda: rospy.get_time() >= 5000.0, "time goes on")
