@@ -9,8 +9,8 @@ import time
 import numpy
 import rospy
 import tf2_ros
+from external_command.client import STATUS_NAMES, CommandClient
 from external_command.msg import Chassis, CommandStatus, LaneFollowCommand, Pose
-from external_command.srv import GetCommandStatus, LaneFollow
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import Path
 from visualization_msgs.msg import MarkerArray
@@ -25,8 +25,6 @@ CANDIDATES = 8  # places between all pairs of which a route is tried
 END_LENGTH = 15.0  # [m]
 MAX_END_CURVATURE = 0.1  # [1/m]
 PICTURE_AT = 0.3  # of the way left
-STATUS_NAMES = {CommandStatus.RUNNING: "RUNNING", CommandStatus.FINISHED: "FINISHED", CommandStatus.ERROR: "ERROR",
-                CommandStatus.UNKNOWN: "UNKNOWN"}
 
 
 class Drive:
@@ -47,22 +45,11 @@ class Drive:
         origin = SERVICE[:-1] + "/map_origin_resolved"
         self._stack.wait_for(lambda: rospy.has_param(origin), "the component with its map", START_TIMEOUT)
         self._origin = rospy.get_param(origin)
-        self._lane_follow = self._service("lane_follow", LaneFollow)
-        self._command_status = self._service("command_status", GetCommandStatus)
+        self._client = CommandClient(NAMESPACE, START_TIMEOUT)
         self._tf_buffer = tf2_ros.Buffer()
         self._tf_listener = tf2_ros.TransformListener(self._tf_buffer)
         rospy.Subscriber(NAMESPACE + "canbus/chassis", Chassis, self._on_chassis)
         rospy.Subscriber(SERVICE + "path", Path, self._on_path)
-
-    def _service(self, name, service_class):
-        def is_there():
-            try:
-                rospy.wait_for_service(SERVICE + name, 0.5)
-                return True
-            except rospy.ROSException:
-                return False
-        self._stack.wait_for(is_there, f"service {SERVICE}{name}", START_TIMEOUT)
-        return rospy.ServiceProxy(SERVICE + name, service_class)
 
     def choose(self, start, goal):
         """Start and goal poses in the map frame; a dry run has found a route between them.
@@ -112,8 +99,8 @@ class Drive:
         return (points[0::2] + points[1::2]) / 2.0  # a marker is pairs of ends; a lane's own ends are ambiguous
 
     def _dry_run(self, start, goal):
-        return self._lane_follow(LaneFollowCommand(way_point=[start], end_pose=goal, is_start_pose_set=True,
-                                                   dry_run=True))
+        return self._client.call("lane_follow", LaneFollowCommand(way_point=[start], end_pose=goal,
+                                                                  is_start_pose_set=True, dry_run=True))
 
     def place(self, pose):
         """Puts the simulated vehicle at `pose`."""
@@ -135,7 +122,7 @@ class Drive:
         """Drives to `goal`; `camera`, where there is one, takes its picture on the way. Returns whether the command has
         FINISHED."""
         self._path = None
-        answer = self._lane_follow(LaneFollowCommand(end_pose=goal)).status
+        answer = self._client.call("lane_follow", LaneFollowCommand(end_pose=goal)).status
         print(f"lane-follow command {answer.command_id}: {STATUS_NAMES[answer.status]} {answer.message}", flush=True)
         if answer.status == CommandStatus.ERROR:
             return False
@@ -163,7 +150,7 @@ class Drive:
         """The command's status, after a second or when the command has ended."""
         deadline = time.monotonic() + 1.0
         while True:
-            status = self._command_status(self.command_id).status
+            status = self._client.status(self.command_id)
             position = self._position()
             progress.update(position)
             if overlay:

@@ -20,6 +20,11 @@ cd /
 
 drive=$("$folder/try_drive.sh") || fail "$name does not drive: $drive"
 
+share=/usr/share
+[ ! -d /opt/ros/noetic ] || share=/opt/ros/noetic/share
+checked=$(CMAKE_PREFIX_PATH=${CMAKE_PREFIX_PATH:-/usr} rosrun external_command check_map \
+  "$share/external_command/maps/demo_town/base_map.bin") || fail "check_map says of the demo map: $checked"
+
 # Debian's rosbash looks for the programs of /usr only where CMAKE_PREFIX_PATH names it.
 completions=$(CMAKE_PREFIX_PATH=${CMAKE_PREFIX_PATH:-/usr} bash -c 'set +u
   . /usr/share/bash-completion/bash_completion
@@ -34,4 +39,4 @@ case $completions in *external_command_client*) ;; *) fail "rosrun is completed 
 left=$(find / -xdev \( -name '*external_command*' -o -name '*external-command*' \) -not -path '/proc/*' \
   -not -path "$folder/*" -not -path '/root/.ros/*' -not -path '/tmp/*' -not -path '/var/cache/apt/*')
 [ -z "$left" ] || fail "removal leaves $left"
-echo "$name $(dpkg-deb --field "$1" Version): installed among $packages packages, $drive, completed, removed"
+echo "$name $(dpkg-deb --field "$1" Version): installed among $packages packages, $drive, map checked, completed, removed"

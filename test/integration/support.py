@@ -7,29 +7,27 @@ import xmlrpc.client
 import rosgraph
 import rospy
 
+from external_command.client import STATUS_NAMES, NotReady, describe  # noqa: F401  (tests call support.describe)
 from external_command.msg import CommandStatus
 from external_command.srv import GetCommandStatus
 
 DEADLINE = 30.0  # [s] of wall time; what is late by that much does not come
-
-STATUS_NAMES = {
-    CommandStatus.RUNNING: "RUNNING",
-    CommandStatus.FINISHED: "FINISHED",
-    CommandStatus.ERROR: "ERROR",
-    CommandStatus.UNKNOWN: "UNKNOWN",
-}
-
-
-def describe(status):
-    """A status in one line, for messages of failed assertions."""
-    return "command %d %s, code %d: %s" % (
-        status.command_id, STATUS_NAMES.get(status.status, status.status), status.error_code, status.message)
 
 
 def service(name, service_type):
     """A proxy of a service that is there."""
     rospy.wait_for_service(name, timeout=DEADLINE)
     return rospy.ServiceProxy(name, service_type)
+
+
+def wait_until_ready(client):
+    """Waits until the gateway of a CommandClient in the demo town knows the vehicle's pose."""
+    def is_ready():
+        try:
+            return client.lane_follow(x=300.0, y=195.0, dry_run=True)
+        except NotReady:
+            return False
+    wait_until(is_ready, "the vehicle is known")
 
 
 def pid_of(node):
