@@ -71,7 +71,7 @@ Options parse(CommandLine line) {
   return options;
 }
 
-void report(const FreeSpaceResult& result, double best_known, double cpu_seconds, Summary* summary) {
+void report(const FreeSpacePlan& result, double best_known, double cpu_seconds, Summary* summary) {
   summary->first_times.push_back(result.first_path_time);
   std::printf("first %7.2f ms %7.3f", 1e3 * result.first_path_time, result.first_path_cost);
   if (best_known > 0.0) {
@@ -102,7 +102,7 @@ void runCase(const std::string& file, const Options& options, Summary* summary) 
   const std::clock_t begin = std::clock();
   try {
     const FreeSpacePlanner planner(task.vehicle, options.params);
-    const FreeSpaceResult result = planner.plan(task.start, {task.goal}, task.region, {});
+    const FreeSpacePlan result = planner.plan(task.start, {task.goal}, task.region, {});
     const double cpu_seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     report(result, known == best_known.end() ? 0.0 : known->second, cpu_seconds, summary);
     check(task, result.path, summary);

@@ -141,7 +141,7 @@ std::optional<Curve> Connector::searchWithin(const std::optional<BoundingBox>& b
   params.gear_change_cost = field_.params().gear_change_cost;
   params.spacing = 0.25;
   try {
-    const FreeSpaceResult result =
+    const FreeSpacePlan result =
         FreeSpacePlanner(field_.vehicle(), params).plan(from, {to}, Region(std::move(parts)), field_.cancel());
     Curve curve{from, {}};
     for (std::size_t i = 1; i < result.path.size(); ++i) {

@@ -61,9 +61,9 @@ class Planning {
     addApproaches(goals);
   }
 
-  FreeSpaceResult run() {
+  FreeSpacePlan run() {
     Solution best = firstSolution();
-    FreeSpaceResult result = finish(best);
+    FreeSpacePlan result = finish(best);
     result.first_path_time = secondsSince(begin_);
     result.first_path_cost = result.cost;
     if (params_.planner == "portfolio" && params_.improve_budget > 0.0) {
@@ -216,13 +216,13 @@ class Planning {
 
   /// The solution as a path in the local frame, checked.
   /// @throws NoPath  it fails the last check.
-  FreeSpaceResult finish(const Solution& solution) const {
+  FreeSpacePlan finish(const Solution& solution) const {
     Arcs arcs = solution.arcs;
     const Arcs& tail = solution.approach->tail;
     arcs.insert(arcs.end(), tail.begin(), tail.end());
     arcs = merged(arcs);
     if (params_.continuous_curvature) arcs = withRamps(arcs);
-    FreeSpaceResult result;
+    FreeSpacePlan result;
     result.path = sampleArcs(start_, arcs, params_.spacing);
     const Pose2d goal = goalOf(*solution.approach);
     const PathDemands demands{start_, goal, vehicle_.maxKappa(), params_.spacing};
@@ -250,9 +250,9 @@ class Planning {
   Pose2d goalOf(const Approach& approach) const { return endOf(approach.query.goal, approach.tail); }
 
   /// Takes the better solution, unless it fails the last check: then the first path stays.
-  void replace(FreeSpaceResult* result, const Solution& better) const {
+  void replace(FreeSpacePlan* result, const Solution& better) const {
     try {
-      FreeSpaceResult finished = finish(better);
+      FreeSpacePlan finished = finish(better);
       finished.first_path_time = result->first_path_time;
       finished.first_path_cost = result->first_path_cost;
       *result = std::move(finished);
@@ -301,7 +301,7 @@ FreeSpacePlanner::FreeSpacePlanner(const VehicleParams& vehicle, const FreeSpace
   params_.validate();
 }
 
-FreeSpaceResult FreeSpacePlanner::plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region,
+FreeSpacePlan FreeSpacePlanner::plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region,
                                        const CancelToken& cancel) const {
   requireUsable(start, goals);
   cancel.throwIfCancelled();

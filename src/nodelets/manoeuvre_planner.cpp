@@ -145,7 +145,7 @@ Region ManoeuvrePlanner::regionOf(Region::Parts parts) const {
   return Region(std::move(parts));
 }
 
-FreeSpaceResult ManoeuvrePlanner::plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region,
+FreeSpacePlan ManoeuvrePlanner::plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region,
                                        const Deadline& deadline, const CancelToken& cancel,
                                        const CommandScene& scene) const {
   FreeSpaceParams params = params_;
@@ -183,7 +183,7 @@ void ManoeuvrePlanner::showConflicts(const std::vector<Pose2d>& poses, const Reg
   context_.display().showRefused(std::move(scene));
 }
 
-void appendManoeuvre(const FreeSpaceResult& manoeuvre, MotionPlan* plan) {
+void appendManoeuvre(const FreeSpacePlan& manoeuvre, MotionPlan* plan) {
   plan->path = join(plan->path, manoeuvre.path);
   plan->report.min_clearance = plan->report.min_clearance > 0.0
                                    ? std::min(plan->report.min_clearance, manoeuvre.min_clearance)

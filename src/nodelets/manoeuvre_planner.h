@@ -52,7 +52,7 @@ class ManoeuvrePlanner {
   /// The cheapest manoeuvre from `start` to one of `goals` that is found by `deadline`. A start or goal that is blocked
   /// is shown in rviz together with `scene`.
   /// @throws  as FreeSpacePlanner::plan()
-  FreeSpaceResult plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region,
+  FreeSpacePlan plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region,
                        const Deadline& deadline, const CancelToken& cancel, const CommandScene& scene) const;
 
   /// Shows in rviz what stands in the way of `poses`, together with `scene`.
@@ -79,7 +79,7 @@ class ManoeuvrePlanner {
 FreeSpaceParams readFreeSpaceParams(const ParameterReader& reader);
 
 /// Adds a manoeuvre to the end of the plan's path, and what is to be told of it to the report.
-void appendManoeuvre(const FreeSpaceResult& manoeuvre, MotionPlan* plan);
+void appendManoeuvre(const FreeSpacePlan& manoeuvre, MotionPlan* plan);
 
 /// Outlines of a region for the display.
 void showRegion(const Region& region, CommandScene* scene);

@@ -107,7 +107,7 @@ void leaveRouteFor(const std::vector<Pose2d>& goals, const Region& region, const
                    const Deadline& deadline, const CancelToken& cancel, MotionPlan* plan) {
   const double end = plan->path.back().s;
   std::size_t left = std::size(kLeavingPoints);
-  std::optional<FreeSpaceResult> best;
+  std::optional<FreeSpacePlan> best;
   std::size_t best_index = 0;
   double best_cost = 0.0;
   double farthest = 0.0;
@@ -118,7 +118,7 @@ void leaveRouteFor(const std::vector<Pose2d>& goals, const Region& region, const
     const std::size_t index = indexAt(plan->path, end - before);
     const Deadline attempt = deadline.part(1.0 / static_cast<double>(left--));
     try {
-      FreeSpaceResult found = planner.plan(plan->path[index].pose(), goals, region, attempt, cancel, plan->scene);
+      FreeSpacePlan found = planner.plan(plan->path[index].pose(), goals, region, attempt, cancel, plan->scene);
       const double cost = plan->path[index].s + found.cost;
       if (best && cost >= best_cost) continue;
       best = std::move(found);
@@ -155,7 +155,7 @@ void leaveParkingPlace(const ProcessContext& context, const Pose2d& vehicle, con
     try {
       const Region region = planner.regionOf(surfaceWith(map, places[i], plan->path.front().pose()));
       const Joints joints = jointsOf(plan->path);
-      const FreeSpaceResult out = planner.plan(vehicle, joints.poses, region, attempt, cancel, plan->scene);
+      const FreeSpacePlan out = planner.plan(vehicle, joints.poses, region, attempt, cancel, plan->scene);
       const auto joint = static_cast<std::ptrdiff_t>(joints.indices[out.goal_index]);
       const Path rest(plan->path.begin() + joint, plan->path.end());
       plan->path.clear();

@@ -23,7 +23,7 @@ FreeSpaceParams paramsWith(bool continuous_curvature) {
   return params;
 }
 
-FreeSpaceResult planned(const ParkingWorld& world, const FreeSpaceParams& params) {
+FreeSpacePlan planned(const ParkingWorld& world, const FreeSpaceParams& params) {
   return FreeSpacePlanner(world.vehicle, params).plan(world.start, {world.goal}, world.region, {});
 }
 
@@ -52,7 +52,7 @@ double largestJump(const Path& path) {
 TEST(ContinuousCurvature, SteersGraduallyWhereThatIsWished) {
   const FreeSpaceParams params = paramsWith(true);
   for (const ParkingWorld& world : {parallelSlot(1.5), parallelSlot(0.7), bay(0.4), twoYards(1.0)}) {
-    const FreeSpaceResult result = planned(world, params);
+    const FreeSpacePlan result = planned(world, params);
     EXPECT_TRUE(joins(result.path, world.start, world.goal));
     EXPECT_TRUE(isDrivable(result.path, world.vehicle, {params.spacing}));
     EXPECT_TRUE(staysClear(result.path, world.vehicle, world.region, params.margin - kMarginSlack));

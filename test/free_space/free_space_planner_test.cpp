@@ -27,11 +27,11 @@ FreeSpaceParams quickParams(double margin = 0.05) {
   return params;
 }
 
-FreeSpaceResult planned(const ParkingWorld& world, const FreeSpaceParams& params) {
+FreeSpacePlan planned(const ParkingWorld& world, const FreeSpaceParams& params) {
   return FreeSpacePlanner(world.vehicle, params).plan(world.start, {world.goal}, world.region, {});
 }
 
-testing::AssertionResult isValid(const FreeSpaceResult& result, const ParkingWorld& world,
+testing::AssertionResult isValid(const FreeSpacePlan& result, const ParkingWorld& world,
                                  const FreeSpaceParams& params) {
   if (const auto ends = joins(result.path, world.start, world.goal); !ends) return ends;
   if (const auto drivable = isDrivable(result.path, world.vehicle, {params.spacing}); !drivable) return drivable;
@@ -122,7 +122,7 @@ TEST(FreeSpacePlanner, PlansTheSameFarFromTheOrigin) {
   const ParkingWorld world = parallelSlot(0.8);
   const Pose2d frame{4.5e7, -5.5e7, 0.0};
   const ParkingWorld far = moved(world, frame);
-  const FreeSpaceResult result = planned(far, quickParams());
+  const FreeSpacePlan result = planned(far, quickParams());
   EXPECT_TRUE(joins(result.path, far.start, far.goal));
   EXPECT_NEAR(result.cost, planned(world, quickParams()).cost, 0.5);
   Path back = result.path;
@@ -135,7 +135,7 @@ TEST(FreeSpacePlanner, ImprovesThePathWithMoreWork) {
   const ParkingWorld world = twoYards(1.0);
   FreeSpaceParams params = quickParams();
   params.improve_iterations = 20'000;
-  const FreeSpaceResult result = planned(world, params);
+  const FreeSpacePlan result = planned(world, params);
   EXPECT_LE(result.cost, result.first_path_cost);
   EXPECT_NEAR(result.cost, result.length + 3.0 * result.gear_changes, 1e-6);
   params.planner = "hybrid_astar";
@@ -147,7 +147,7 @@ TEST(FreeSpacePlanner, GivesTheSamePathForTheSameSeed) {
   for (const unsigned threads : {1U, 2U}) {
     FreeSpaceParams params = quickParams();
     params.threads = threads;
-    const FreeSpaceResult one = planned(world, params), other = planned(world, params);
+    const FreeSpacePlan one = planned(world, params), other = planned(world, params);
     ASSERT_EQ(one.path.size(), other.path.size());
     for (std::size_t i = 0; i < one.path.size(); ++i) {
       ASSERT_EQ(one.path[i].x, other.path[i].x);
@@ -164,7 +164,7 @@ TEST(FreeSpacePlanner, TakesTheCheaperGoal) {
   const FreeSpacePlanner planner(world.vehicle, quickParams());
   const double back_in_cost = planner.plan(world.start, {world.goal}, world.region, {}).cost;
   const double nose_in_cost = planner.plan(world.start, {nose_in}, world.region, {}).cost;
-  const FreeSpaceResult either = planner.plan(world.start, {world.goal, nose_in}, world.region, {});
+  const FreeSpacePlan either = planner.plan(world.start, {world.goal, nose_in}, world.region, {});
   EXPECT_EQ(either.goal_index, nose_in_cost < back_in_cost ? 1U : 0U);
   EXPECT_NEAR(either.cost, std::min(nose_in_cost, back_in_cost), 1.0);
 }
@@ -181,7 +181,7 @@ TEST(FreeSpacePlanner, EndsWithAStraightStretchWhereAsked) {
   const ParkingWorld world = bay(1.0);
   FreeSpaceParams params = quickParams();
   params.straight_last = 2.0;
-  const FreeSpaceResult result = planned(world, params);
+  const FreeSpacePlan result = planned(world, params);
   EXPECT_TRUE(isValid(result, world, params));
   for (const ReferencePoint& point : result.path) {
     const bool is_last_stretch = result.length - point.s < 1.99;
@@ -190,7 +190,7 @@ TEST(FreeSpacePlanner, EndsWithAStraightStretchWhereAsked) {
 }
 
 TEST(FreeSpacePlanner, StaysWhereItIsIfThatIsTheGoal) {
-  const FreeSpaceResult result = FreeSpacePlanner(smallCar(), quickParams()).plan({1, 2, 3}, {{1, 2, 3}}, Region(), {});
+  const FreeSpacePlan result = FreeSpacePlanner(smallCar(), quickParams()).plan({1, 2, 3}, {{1, 2, 3}}, Region(), {});
   EXPECT_EQ(result.length, 0.0);
   EXPECT_EQ(result.path.size(), 1U);
 }
@@ -360,7 +360,7 @@ TEST(FreeSpacePlanner, RunsThePlannersOfOmplInTheSameFrame) {
     const ParkingWorld& task = finds_narrow_places ? world : open;
     FreeSpaceParams params = quickParams();
     params.planner = name;
-    const FreeSpaceResult result = planned(task, params);
+    const FreeSpacePlan result = planned(task, params);
     EXPECT_TRUE(isValid(result, task, params)) << name;
     EXPECT_EQ(result.planner, name);
   }

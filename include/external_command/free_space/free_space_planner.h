@@ -13,7 +13,7 @@
 
 namespace external_command {
 
-struct FreeSpaceResult {
+struct FreeSpacePlan {
   Path path;                    ///< of the rear-axle centre, from start to goal; speeds are caps, see limitSpeeds()
   double cost = 0.0;            ///< see FreeSpaceParams [m]
   double length = 0.0;          ///< driven, in both gears [m]
@@ -42,7 +42,7 @@ class FreeSpacePlanner {
   /// @throws NoPath           the search has shown that there is none at its finest resolution, or used its iterations.
   /// @throws PlanningTimeout  time_budget ran out first.
   /// @throws Cancelled        `cancel` was raised; noticed within a few milliseconds.
-  FreeSpaceResult plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region,
+  FreeSpacePlan plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region,
                        const CancelToken& cancel) const;
 
  private:
