@@ -43,6 +43,15 @@ def example(service):
     return command
 
 
+def example_goal(service):
+    """The same as a goal of the action beside the service."""
+    name = "".join(word.capitalize() for word in service.split("_"))
+    goal = getattr(msg, name + "ActionGoal")()
+    goal.goal_id.id = "a goal"
+    goal.goal.command = example(service)
+    return goal
+
+
 def serialized(message):
     buffer = io.BytesIO()
     message.serialize(buffer)

@@ -17,6 +17,7 @@ MOST_MEMORY = 500.0  # beyond that at the beginning [MB]
 LATEST_ANSWER = 5.0  # [s]
 SHARE_OF_MAPS = 0.33
 CLIENTS = 3
+MOTION_SERVICES = ("free_space", "lane_follow", "path_follow", "precise_parking", "valet_parking", "zone_cover")
 
 
 def fuzz_maps(root, build_dir, minutes, seed, figures):
@@ -110,6 +111,7 @@ def fuzz_gateway(root, build_dir, minutes, seed, figures):
     with Gateway(root, build_dir, changes) as gateway, MemoryWatch(gateway) as memory:
         import fuzz_bytes
         import fuzz_requests
+        from actionlib_msgs.msg import GoalID
         from external_command import msg
         from geometry_msgs.msg import TransformStamped
         from nav_msgs.msg import OccupancyGrid
@@ -121,6 +123,9 @@ def fuzz_gateway(root, build_dir, minutes, seed, figures):
                   "/apollo/canbus/chassis": msg.Chassis(vin="a vin"),
                   "/apollo/grid": OccupancyGrid(data=[0] * 100),
                   "/tf": TFMessage(transforms=[TransformStamped()])}
+        for service in MOTION_SERVICES:
+            topics["/apollo/external_command/%s/goal" % service] = fuzz_bytes.example_goal(service)
+            topics["/apollo/external_command/%s/cancel" % service] = GoalID(id="a goal")
         requests = subprocess.Popen(
             [sys.executable, os.path.join(root, "scripts", "lib", "fuzz_requests.py"), "--seed", str(seed),
              "--duration", str(60.0 * minutes), "--threads", "4", "--stop-limit", "5"])

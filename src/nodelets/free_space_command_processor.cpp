@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "free_space_command_processor.h"
 
+#include "external_command/FreeSpaceAction.h"
 #include "external_command/core/text.h"
+#include "external_command/ros/action_front.h"
 #include "external_command/ros/checks.h"
 
 namespace external_command {
@@ -20,7 +22,9 @@ Region::Parts partsOf(const FreeSpaceCommand& command, const Pose2d& frame) {
 }  // namespace
 
 FreeSpaceCommandProcessor::FreeSpaceCommandProcessor()
-    : MotionCommandProcessor<FreeSpace>("external_command/free_space") {}
+    : MotionCommandProcessor<FreeSpace>("external_command/free_space") {
+  offerAction<FreeSpaceAction>();
+}
 
 FreeSpaceCommandProcessor::~FreeSpaceCommandProcessor() { stopServing(); }
 

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lane_follow_command_processor.h"
 
+#include "external_command/LaneFollowAction.h"
+#include "external_command/ros/action_front.h"
 #include "parking_manoeuvres.h"
 
 namespace external_command {
 
 LaneFollowCommandProcessor::LaneFollowCommandProcessor()
-    : MotionCommandProcessor<LaneFollow>("external_command/lane_follow") {}
+    : MotionCommandProcessor<LaneFollow>("external_command/lane_follow") {
+  offerAction<LaneFollowAction>();
+}
 
 LaneFollowCommandProcessor::~LaneFollowCommandProcessor() { stopServing(); }
 

@@ -5,8 +5,10 @@
 #include <optional>
 #include <utility>
 
+#include "external_command/PathFollowAction.h"
 #include "external_command/core/text.h"
 #include "external_command/core/waypoint_path.h"
+#include "external_command/ros/action_front.h"
 #include "external_command/ros/bounded_subscription.h"
 #include "path_message.h"
 
@@ -121,7 +123,9 @@ void warnOfEndHeading(const WaypointPath& result, std::vector<std::string>* warn
 }  // namespace
 
 PathFollowCommandProcessor::PathFollowCommandProcessor()
-    : MotionCommandProcessor<PathFollow>("external_command/path_follow") {}
+    : MotionCommandProcessor<PathFollow>("external_command/path_follow") {
+  offerAction<PathFollowAction>();
+}
 
 PathFollowCommandProcessor::~PathFollowCommandProcessor() {
   path_subscriber_.shutdown();

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 
+#include "external_command/PreciseParkingAction.h"
 #include "external_command/core/text.h"
 #include "external_command/free_space/collision_checker.h"
+#include "external_command/ros/action_front.h"
 #include "external_command/routing/area_access.h"
 
 namespace external_command {
@@ -35,7 +37,9 @@ Path straightPath(const Pose2d& from, double length, Direction direction, double
 }  // namespace
 
 PreciseParkingCommandProcessor::PreciseParkingCommandProcessor()
-    : MotionCommandProcessor<PreciseParking>("external_command/precise_parking") {}
+    : MotionCommandProcessor<PreciseParking>("external_command/precise_parking") {
+  offerAction<PreciseParkingAction>();
+}
 
 PreciseParkingCommandProcessor::~PreciseParkingCommandProcessor() { stopServing(); }
 

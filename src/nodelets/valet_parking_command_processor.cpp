@@ -5,7 +5,9 @@
 
 #include <algorithm>
 
+#include "external_command/ValetParkingAction.h"
 #include "external_command/core/text.h"
+#include "external_command/ros/action_front.h"
 
 namespace external_command {
 
@@ -69,7 +71,9 @@ bool mayHelpElsewhere(ErrorCode code) {
 }  // namespace
 
 ValetParkingCommandProcessor::ValetParkingCommandProcessor()
-    : MotionCommandProcessor<ValetParking>("external_command/valet_parking") {}
+    : MotionCommandProcessor<ValetParking>("external_command/valet_parking") {
+  offerAction<ValetParkingAction>();
+}
 
 ValetParkingCommandProcessor::~ValetParkingCommandProcessor() { stopServing(); }
 

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "external_command/ZoneCoverAction.h"
 #include "external_command/core/printable.h"
 #include "external_command/core/text.h"
 #include "external_command/map/near_ids.h"
+#include "external_command/ros/action_front.h"
 #include "external_command/routing/area_access.h"
 #include "zone_entry.h"
 #include "zone_resume.h"
@@ -47,7 +49,9 @@ CoverageParams readCoverageParams(const ParameterReader& reader) {
 }
 
 ZoneCoverCommandProcessor::ZoneCoverCommandProcessor()
-    : MotionCommandProcessor<ZoneCover>("external_command/zone_cover") {}
+    : MotionCommandProcessor<ZoneCover>("external_command/zone_cover") {
+  offerAction<ZoneCoverAction>();
+}
 
 ZoneCoverCommandProcessor::~ZoneCoverCommandProcessor() {
   stopServing();

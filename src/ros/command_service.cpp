@@ -30,15 +30,20 @@ CommandService::~CommandService() {
 }
 
 void CommandService::stopServing() {
+  if (action_) action_->stopTaking();
   server_.shutdown();
   conditions_.clear();
   if (lane_) cancelWork();
   lane_.reset();  // joins
+  action_.reset();
 }
 
 void CommandService::start() {
   parameters().readName("input_command_name", &service_name_);
   callers_ = readCallerLimits(parameters());
+  bool has_action = true;
+  if (make_action_) parameters().read("actions", &has_action);
+  if (!has_action) make_action_ = {};
   log_publisher_ = context().advertise<CommandLogEntry>(context().params().log_topic, false);
   ros::NodeHandle nh(getNodeHandle());
   nh.setCallbackQueue(context().reports().queue());
@@ -76,13 +81,18 @@ void CommandService::open() {
   options.priority = threads.priority;
   options.stamp = [&gate = context().gate()] { return gate.arrive(); };
   lane_ = std::make_unique<DedicatedLane>(options);
+  openService();
+  if (make_action_) action_ = make_action_();
+}
+
+void CommandService::openService() {
   ros::AdvertiseServiceOptions service = serviceOptions();
   service.callback_queue = lane_->queue();
   server_ = getNodeHandle().advertiseService(service);
   if (server_) return;
   stopServing();
-  throw InternalError(text("service ", getNodeHandle().resolveName(service_name_),
-                           " is advertised by this process already; is the same processor loaded twice?"));
+  throw InternalError(
+      text("service ", resolvedName(), " is advertised by this process already; is the same processor loaded twice?"));
 }
 
 CommandOwner CommandService::owner() const { return {id(), service_name_.substr(service_name_.rfind('/') + 1)}; }
@@ -98,10 +108,14 @@ CommandStatus CommandService::admitAndExecute(const Incoming& request,
   CommandRegistry::Admission admission = request.acts_always
                                              ? registry.admitAlways(request.wanted_id, owner())
                                              : registry.admit(request.wanted_id, owner(), request.digest);
-  if (admission.running) return *admission.running;
+  if (admission.running) {
+    if (request.on_admitted) request.on_admitted(admission.command);
+    return *admission.running;
+  }
   admission.command.arrival = request.arrival;
   CommandStatus status;
   try {
+    if (request.on_admitted) request.on_admitted(admission.command);
     status = execute(admission.command);
   } catch (...) {
     status = statusFrom(std::current_exception(), admission.command.id);
@@ -123,6 +137,17 @@ CommandStatus CommandService::admitAndExecute(const Incoming& request,
 CommandStatus CommandService::refuse(std::int64_t wanted_id) {
   const CommandStatus status = context().registry().refuse(statusFrom(std::current_exception(), wanted_id), owner());
   tell(status);
+  return status;
+}
+
+CommandStatus CommandService::refuseGoal(const GoalArrival& how) {
+  CommandStatus status;
+  try {
+    std::rethrow_exception(how.fault);
+  } catch (...) {
+    status = refuse(0);
+  }
+  logRefusal(how.caller, status);
   return status;
 }
 

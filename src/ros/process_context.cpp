@@ -138,6 +138,7 @@ ProcessContext::ProcessContext(const ros::NodeHandle& nh, const ros::NodeHandle&
           [this, publisher = advertise<CommandStatus>(params_.status_topic, false)](CommandSerial serial,
                                                                                     const CommandStatus& status) {
             publisher.publish(status);
+            status_changes_(serial, status);
             // Not here: the gate calls the registry while it is held.
             if (hasEnded(status)) reports_.post([this, serial] { gate_.retire(serial); });
           },

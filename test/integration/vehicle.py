@@ -4,7 +4,7 @@ import math
 
 import rospy
 import tf2_ros
-from geometry_msgs.msg import Point
+from geometry_msgs.msg import Point, PoseWithCovarianceStamped
 
 import support
 from external_command.msg import Chassis, PathFollowCommand
@@ -18,6 +18,7 @@ class Vehicle:
         self._buffer = tf2_ros.Buffer()
         self._listener = tf2_ros.TransformListener(self._buffer)
         self._chassis = None
+        self._initial_pose = rospy.Publisher("initialpose", PoseWithCovarianceStamped, queue_size=1)
         self._subscriber = rospy.Subscriber("canbus/chassis", Chassis, self._on_chassis)
         support.wait_until(lambda: self._chassis is not None, "a message of the chassis")
         support.wait_until(lambda: self._buffer.can_transform("map", "base_link", rospy.Time()), "the vehicle's pose")
@@ -40,6 +41,24 @@ class Vehicle:
         transform = self._buffer.lookup_transform("map", "base_link", rospy.Time()).transform
         q = transform.rotation
         return transform.translation.x, transform.translation.y, 2.0 * math.atan2(q.z, q.w)
+
+    def place(self, x, y, heading=0.0):
+        """Puts it there, and waits until the component knows."""
+        message = PoseWithCovarianceStamped()
+        message.pose.pose.position.x, message.pose.pose.position.y = x, y
+        message.pose.pose.orientation.z = math.sin(heading / 2.0)
+        message.pose.pose.orientation.w = math.cos(heading / 2.0)
+        support.wait_until(lambda: self._initial_pose.get_num_connections() > 0, "the vehicle takes poses")
+        self._initial_pose.publish(message)
+        support.wait_until(lambda: math.hypot(self.pose[0] - x, self.pose[1] - y) < 1e-3, "the vehicle is there")
+        support.wait_until(lambda: self._component_sees_it_at(x, y), "the component knows where the vehicle is")
+
+    @staticmethod
+    def _component_sees_it_at(x, y):
+        command = PathFollowCommand(way_point=[Point(0.0, 0.0, 0.0), Point(10.0, 0.0, 0.0)], dry_run=True)
+        command.header.frame_id = "base_link"
+        points = support.service("external_command/path_follow", PathFollow)(command).path.points
+        return bool(points) and math.hypot(points[0].x - x, points[0].y - y) < 0.01
 
     def wait_until_moving(self):
         support.wait_until(lambda: abs(self.speed) > 0.5, "the vehicle moves")

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deliver_parcel_processor.h"
 
+#include <external_command/ros/action_front.h>
 #include <external_command/ros/any_message.h>
+
+#include "parcel_station/DeliverParcelAction.h"
 
 namespace parcel_station {
 
 namespace ec = external_command;
 
-DeliverParcelProcessor::DeliverParcelProcessor() : MotionCommandProcessor("parcel_station/deliver_parcel") {}
+DeliverParcelProcessor::DeliverParcelProcessor() : MotionCommandProcessor("parcel_station/deliver_parcel") {
+  offerAction<DeliverParcelAction>();
+}
 
 DeliverParcelProcessor::~DeliverParcelProcessor() { stopServing(); }
 

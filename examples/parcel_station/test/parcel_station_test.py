@@ -7,6 +7,7 @@ import subprocess
 import tempfile
 import unittest
 
+import actionlib
 import rosbag
 import rospy
 import rostest
@@ -14,7 +15,7 @@ import rostest
 from external_command import any_message
 from external_command.msg import CommandLogEntry, CommandStatus, PlanningCommand, Pose
 from external_command.srv import GetCommandStatus
-from parcel_station.msg import DeliverParcelCommand, HatchCommand
+from parcel_station.msg import DeliverParcelAction, DeliverParcelCommand, DeliverParcelGoal, HatchCommand
 from parcel_station.srv import DeliverParcel, Hatch
 
 DEADLINE = 30.0  # [s]
@@ -60,6 +61,15 @@ class ParcelStationTest(unittest.TestCase):
         status = self.deliver(parcel_id="P-43", station=STATION).status
         known = service("external_command/command_status", GetCommandStatus)(status.command_id).status
         self.assertIn(known.status, (CommandStatus.RUNNING, CommandStatus.FINISHED), known.message)
+
+    def test_a_delivery_is_an_action_too(self):
+        self.deliver(parcel_id="P-45", station=STATION, dry_run=True)  # until the vehicle's pose is known
+        client = actionlib.SimpleActionClient("parcel_station/deliver_parcel", DeliverParcelAction)
+        self.assertTrue(client.wait_for_server(rospy.Duration(DEADLINE)))
+        command = DeliverParcelCommand(parcel_id="P-45", station=STATION, dry_run=True)
+        state = client.send_goal_and_wait(DeliverParcelGoal(command), rospy.Duration(DEADLINE))
+        self.assertEqual(state, actionlib.GoalStatus.SUCCEEDED)
+        self.assertGreater(client.get_result().report.path_length, 0.0)
 
     def test_refuses_what_makes_no_sense(self):
         self.assert_refused(self.deliver(station=STATION).status, "parcel_id")

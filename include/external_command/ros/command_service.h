@@ -9,11 +9,14 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "external_command/CommandLogEntry.h"
 #include "external_command/ros/caller_limits.h"
+#include "external_command/ros/command_action.h"
 #include "external_command/ros/command_processor.h"
+#include "external_command/ros/goal_arrival.h"
 #include "external_command/ros/log_lane.h"
 
 namespace external_command {
@@ -53,6 +56,10 @@ class CommandService : public CommandProcessor {
   /// Advertises the service. @throws InternalError  another processor of this process has that service.
   void open() override;
 
+  /// What opens the action beside the service. To be called before start().
+  using ActionMaker = std::function<std::unique_ptr<CommandAction>()>;
+  void setAction(ActionMaker maker) { make_action_ = std::move(maker); }
+
   /// Called by stopServing() while requests may be in work: ends what they do for long.
   virtual void cancelWork() {}
 
@@ -62,7 +69,12 @@ class CommandService : public CommandProcessor {
   CommandOwner owner() const;
 
   const std::string& serviceName() const { return service_name_; }
+  std::string resolvedName() const { return getNodeHandle().resolveName(service_name_); }
   DedicatedLane& lane() { return *lane_; }
+
+  /// Called when a request became a command, before that is executed; or the command that it is a retry of. What it
+  /// throws refuses the request.
+  using OnAdmitted = std::function<void(const AdmittedCommand&)>;
 
   /// A request as it came in.
   struct Incoming {
@@ -70,6 +82,7 @@ class CommandService : public CommandProcessor {
     std::uint64_t digest = 0;
     bool acts_always = false;  ///< carried out whatever its id
     ArrivalNumber arrival = 0;
+    OnAdmitted on_admitted = {};
   };
 
   /// When the request that is being served came in: when the network thread handed it over, however long it waited
@@ -82,6 +95,9 @@ class CommandService : public CommandProcessor {
 
   /// The status of a request refused by an exception that is being handled. Logs it.
   CommandStatus refuse(std::int64_t wanted_id);
+
+  /// The same for a goal that came with a fault.
+  CommandStatus refuseGoal(const GoalArrival& how);
 
   /// Writes the answer to the log, behind the answer itself; of a flood of refusals 20 a second.
   void tell(const CommandStatus& status);
@@ -102,6 +118,7 @@ class CommandService : public CommandProcessor {
 
  private:
   virtual ros::AdvertiseServiceOptions serviceOptions() = 0;
+  void openService();
 
   std::string service_name_;
   CallerLimits callers_;
@@ -111,6 +128,8 @@ class CommandService : public CommandProcessor {
   std::vector<Conditions::Entry> conditions_;
   std::vector<ros::Subscriber> report_subscribers_;
   ros::ServiceServer server_;
+  ActionMaker make_action_;  ///< empty: there is no action
+  std::unique_ptr<CommandAction> action_;
   std::unique_ptr<RefusalPace> refusal_pace_;
   std::unique_ptr<DedicatedLane> lane_;
 };

@@ -119,6 +119,10 @@ class ProcessContext {
   using SentMotions = boost::signals2::signal<void(const SentMotion&)>;
   SentMotions& sentMotions() { return sent_motions_; }
 
+  /// Every change of any command's status, in order; told while the registry is held: who listens must not wait.
+  using StatusChanges = boost::signals2::signal<void(CommandSerial, const CommandStatus&)>;
+  StatusChanges& statusChanges() { return status_changes_; }
+
   /// Held from the commit of a motion until everyone knows of it. A stop does not take it.
   std::mutex& sendingMutex() { return sending_mutex_; }
 
@@ -189,6 +193,7 @@ class ProcessContext {
   PlanningPads planning_pads_;
   PlansInWork plans_in_work_;
   CommandGate gate_;
+  StatusChanges status_changes_;
   CommandRegistry registry_;
   MotionWatch motion_watch_;
   ProgressTopic progress_topic_;

@@ -39,6 +39,11 @@ class ServiceCommandProcessor : public CommandService {
  protected:
   explicit ServiceCommandProcessor(const std::string& service) : CommandService(service) {}
 
+  /// Serves the same as an action, too, under the name of the service. To be called in the constructor, in a .cpp file
+  /// that includes action_front.h.
+  template <class Action>
+  void offerAction();
+
   /// Looks at the request only: changes nothing, needs no map and no vehicle.
   /// @throws InvalidRequest, StaleRequest  the text names field, value and what was expected.
   virtual void check(const Command& command) const = 0;
@@ -55,7 +60,7 @@ class ServiceCommandProcessor : public CommandService {
   /// Does with a command that came another way what the service does: check, admit, execute, record, log.
   /// To be called on the processor's lane.
   Response process(const Command& request, const std::string& caller) {
-    return process(request, Origin{caller, arrivalOfThisCallback(), {}});
+    return process(request, Origin{caller, arrivalOfThisCallback(), {}, {}});
   }
 
  private:
@@ -64,6 +69,7 @@ class ServiceCommandProcessor : public CommandService {
     std::string caller;
     ArrivalNumber arrival = 0;
     MessageSize size;
+    OnAdmitted admitted = {};
   };
 
   Response process(const Command& request, const Origin& origin) {
@@ -87,7 +93,7 @@ class ServiceCommandProcessor : public CommandService {
     BoundedServiceCallbacks<Service> callbacks;
     callbacks.answer = [this](const Request& request, const MessageSize& size, const ros::M_string& header) {
       const ArrivalNumber arrival = earlierArrival(header, context().gate(), arrivalOfThisCallback());
-      return process(request.command, Origin{callerOf(header), arrival, size});
+      return process(request.command, Origin{callerOf(header), arrival, size, {}});
     };
     callbacks.refuse = [this](const ros::M_string& header) {
       Response response;
@@ -109,7 +115,7 @@ class ServiceCommandProcessor : public CommandService {
       const bool acts_always = actsAlways(request);
       if (!acts_always) requireWithinLimits(origin);
       check(request);
-      const Incoming incoming{request.command_id, digestOf(request), acts_always, origin.arrival};
+      const Incoming incoming{request.command_id, digestOf(request), acts_always, origin.arrival, origin.admitted};
       return admitAndExecute(incoming, [&](const AdmittedCommand& admitted) {
         Command command = request;
         command.command_id = admitted.id;
