@@ -6,6 +6,7 @@
 #include "external_command_process_component.h"
 #include "free_space_command_processor.h"
 #include "lane_follow_command_processor.h"
+#include "move_base_adapter.h"
 #include "old_routing_adapter.h"
 #include "path_follow_command_processor.h"
 #include "precise_parking_command_processor.h"
@@ -18,6 +19,7 @@ PLUGINLIB_EXPORT_CLASS(external_command::ChassisCommandProcessor, nodelet::Nodel
 PLUGINLIB_EXPORT_CLASS(external_command::ExternalCommandProcessComponent, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(external_command::FreeSpaceCommandProcessor, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(external_command::LaneFollowCommandProcessor, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(external_command::MoveBaseAdapter, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(external_command::OldRoutingAdapter, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(external_command::PathFollowCommandProcessor, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(external_command::PreciseParkingCommandProcessor, nodelet::Nodelet)

@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "move_base_adapter.h"
+
+#include <move_base_msgs/MoveBaseAction.h>
+#include <tf2/LinearMath/Quaternion.h>
+#include <tf2/utils.h>
+
+#include <utility>
+
+#include "external_command/core/text.h"
+#include "external_command/ros/action_server.h"
+#include "external_command/ros/bounded_service.h"
+#include "external_command/ros/checks.h"
+#include "external_command/ros/request_arrival.h"
+#include "external_command/ros/status.h"
+#include "goal_plan_search.h"
+
+namespace external_command {
+
+namespace {
+
+constexpr double kPeriod = 0.1;     // half of that of feedback and status [s]
+constexpr double kUpright = 0.999;  // of the vertical axis, after the rotation
+constexpr const char* kNewer = "a newer goal";
+
+geometry_msgs::PoseStamped toPoseStamped(const Pose2d& pose, const std::string& frame, const ros::Time& stamp) {
+  geometry_msgs::PoseStamped message;
+  message.header.frame_id = frame;
+  message.header.stamp = stamp;
+  message.pose.position.x = pose.x;
+  message.pose.position.y = pose.y;
+  message.pose.orientation.z = std::sin(0.5 * pose.heading);
+  message.pose.orientation.w = std::cos(0.5 * pose.heading);
+  return message;
+}
+
+/// As move_base has it: what is not a rotation about the vertical is most likely a mistake.
+double headingOf(const geometry_msgs::Quaternion& given, const std::string& name) {
+  tf2::Quaternion rotation(given.x, given.y, given.z, given.w);
+  const double length = rotation.length2();
+  if (!std::isfinite(length) || length < 1e-6) {
+    throw InvalidRequest(text(name, ".pose.orientation is (", given.x, ", ", given.y, ", ", given.z, ", ", given.w,
+                              "), which is no rotation; w is 1 for a heading of 0"));
+  }
+  rotation.normalize();
+  if (tf2::quatRotate(rotation, tf2::Vector3(0.0, 0.0, 1.0)).z() < kUpright) {
+    throw InvalidRequest(text(name, ".pose.orientation is (", given.x, ", ", given.y, ", ", given.z, ", ", given.w,
+                              "); only rotations about the vertical are driven to: x and y must be 0"));
+  }
+  return tf2::getYaw(rotation);
+}
+
+}  // namespace
+
+/// actionlib's part: kept apart, since it takes long to compile.
+class MoveBaseAdapter::Front {
+ public:
+  using Server = BoundedActionServer<move_base_msgs::MoveBaseAction>;
+
+  explicit Front(MoveBaseAdapter& adapter)
+      : adapter_(adapter),
+        server_(adapter.context(), adapter.getNodeHandle(), adapter.getNodeHandle().resolveName(adapter.action_name_),
+                {[this](Server::GoalHandle handle, const GoalArrival& how) { take(handle, how); },
+                 [this](Server::GoalHandle handle) { adapter_.cancel(handle.getGoalID().id); }}) {}
+
+  void open() {
+    server_.open();
+    ros::NodeHandle nh(adapter_.getNodeHandle());
+    ros::SteadyTimerOptions options;
+    options.period = ros::WallDuration(kPeriod);
+    options.callback = [this](const ros::SteadyTimerEvent&) {
+      adapter_.goals_->look();
+      is_even_ = !is_even_;
+      if (is_even_) return;
+      server_.tick();
+      adapter_.tick();
+    };
+    options.callback_queue = adapter_.goals_->lane().queue();
+    timer_ = nh.createSteadyTimer(options);
+    if (adapter_.goal_topic_.empty()) return;
+    nh.setCallbackQueue(server_.door().queue());
+    const auto on_goal = [this](const ros::MessageEvent<geometry_msgs::PoseStamped const>& event) {
+      const auto goal = boost::make_shared<move_base_msgs::MoveBaseActionGoal>();
+      goal->goal.target_pose = *event.getConstMessage();
+      server_.take(goal, {event.getPublisherName(), GuardedQueue::stampOfRunningCallback(), {}});
+    };
+    simple_goals_ = subscribeBounded<geometry_msgs::PoseStamped>(nh, adapter_.goal_topic_, 10, on_goal,
+                                                                 adapter_.context().params().requests);
+  }
+
+  void close() {
+    simple_goals_.shutdown();
+    server_.close();
+    timer_.stop();
+  }
+
+ private:
+  class Client : public ClientGoal {
+   public:
+    Client(const Server::GoalHandle& handle, ProcessContext& context) : handle_(handle), context_(context) {}
+
+    void accept() override { handle_.setAccepted(); }
+
+    void tell(const CommandStatus& /*status*/) override {
+      move_base_msgs::MoveBaseFeedback feedback;
+      try {
+        feedback.base_position =
+            toPoseStamped(context_.vehiclePose().get(), context_.params().map_frame, ros::Time::now());
+      } catch (const Error&) {
+        return;  // the localization has paused
+      }
+      handle_.publishFeedback(feedback);
+    }
+
+    void end(GoalEnd end, const CommandStatus& status) override {
+      if (end == GoalEnd::kSucceeded) return handle_.setSucceeded({}, "Goal reached.");
+      if (end == GoalEnd::kCanceled) return handle_.setCanceled({}, status.message);
+      handle_.setAborted({}, status.message);
+    }
+
+   private:
+    Server::GoalHandle handle_;
+    ProcessContext& context_;
+  };
+
+  /// move_base accepts whatever comes, and aborts what it cannot do.
+  void take(Server::GoalHandle handle, const GoalArrival& how) {
+    Request request;
+    request.id = handle.getGoalID().id;
+    request.goal = adapter_.goals_->add(request.id, std::make_unique<Client>(handle, adapter_.context()),
+                                        ActionGoals::Accept::kAtOnce);
+    try {
+      if (how.fault) std::rethrow_exception(how.fault);
+      adapter_.callers_.require(how.caller, adapter_.action_name_);
+    } catch (...) {
+      adapter_.goals_->begin(request.goal);
+      return adapter_.goals_->answered(request.goal, statusFrom(std::current_exception(), 0));
+    }
+    request.target = handle.getGoal()->target_pose;
+    request.caller = how.caller;
+    request.arrival = how.arrival;
+    request.time = ros::WallTime::now();
+    adapter_.take(std::move(request));
+  }
+
+  MoveBaseAdapter& adapter_;
+  Server server_;
+  ros::Subscriber simple_goals_;
+  bool is_even_ = false;  ///< of the timer
+  ros::SteadyTimer timer_;
+};
+
+MoveBaseAdapter::MoveBaseAdapter() = default;
+
+MoveBaseAdapter::~MoveBaseAdapter() {
+  make_plan_.shutdown();
+  if (front_) front_->close();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (in_work_) context().cancelById(in_work_->command_id, "the unloading of " + getName());
+  }
+  calls_.stop();
+  plans_.stop();
+  goals_.reset();
+  front_.reset();
+}
+
+void MoveBaseAdapter::start() {
+  std::string kind = "lane_follow";
+  parameters().read("service", &kind);
+  std::string service_name;
+  parameters().readName("service_name", &service_name);
+  service_ = GoalPoseService::make(kind, service_name.empty() ? "external_command/" + kind : service_name);
+  parameters().readName("action_name", &action_name_);
+  if (parameters().has("goal_name")) goal_topic_.clear();
+  parameters().readName("goal_name", &goal_topic_);
+  parameters().read("use_heading", &uses_heading_);
+  if (kind != "lane_follow") uses_heading_ = true;
+  callers_ = readCallerLimits(parameters());
+  // Apart from the ids that the registry gives, which count on from the milliseconds of its start.
+  next_id_ = static_cast<std::int64_t>(ros::WallTime::now().toNSec() / 1000);
+}
+
+void MoveBaseAdapter::open() {
+  goals_ = std::make_unique<ActionGoals>(context(), action_name_);
+  front_ = std::make_unique<Front>(*this);
+  BoundedServiceCallbacks<nav_msgs::GetPlan> callbacks;
+  callbacks.answer = [this](const nav_msgs::GetPlan::Request& request, const MessageSize& /*size*/,
+                            const ros::M_string& header) {
+    const auto caller = header.find("callerid");
+    return makePlan(request, caller == header.end() ? std::string() : caller->second);
+  };
+  callbacks.refuse = [this](const ros::M_string& /*header*/) {
+    logLater(LogLevel::kWarn,
+             text(getName(), ": a request for a plan was refused: ", statusFrom(std::current_exception(), 0).message));
+    return nav_msgs::GetPlan::Response();
+  };
+  ros::AdvertiseServiceOptions service =
+      boundedService<nav_msgs::GetPlan>(action_name_ + "/make_plan", std::move(callbacks), context().params().requests);
+  service.callback_queue = plans_.queue();
+  make_plan_ = getNodeHandle().advertiseService(service);
+  if (!make_plan_) {
+    throw InternalError(
+        text("service ", service.service, " is advertised by this process already; is ", getName(), " loaded twice?"));
+  }
+  front_->open();
+}
+
+void MoveBaseAdapter::take(Request request) {
+  request.command_id = next_id_++;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (waiting_) goals_->cancel(waiting_->id, kNewer);
+    if (in_work_) cancelInWork(in_work_->id, kNewer);
+    waiting_ = std::move(request);
+  }
+  calls_.post([this] { carryOutNext(); });
+}
+
+void MoveBaseAdapter::cancel(const std::string& id) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  goals_->cancel(id, "the client of its goal");
+  if (in_work_ && in_work_->id == id) cancelInWork(id, "the client of its goal");
+}
+
+void MoveBaseAdapter::cancelInWork(const std::string& id, const std::string& by) {
+  goals_->cancel(id, by);
+  in_work_->is_cancelled = true;
+  context().cancelById(in_work_->command_id, by);
+}
+
+void MoveBaseAdapter::tick() {
+  goals_->tick();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (in_work_ && in_work_->is_cancelled) context().cancelById(in_work_->command_id, "its goal");
+}
+
+void MoveBaseAdapter::carryOutNext() {
+  Request request;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!waiting_) return;  // a newer one has taken its place, and was carried out
+    request = *std::move(waiting_);
+    waiting_.reset();
+    if (!goals_->begin(request.goal)) return goals_->cancel(driven_, "the cancel of a newer goal");
+    in_work_ = request;
+  }
+  const CommandStatus status = carryOut(request);
+  bool is_last = false;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    in_work_.reset();
+    is_last = !waiting_;
+  }
+  if (hasEnded(status)) {
+    // The vehicle must not drive on to a goal that nobody has any more.
+    if (is_last) goals_->cancel(driven_, text("a newer goal that is not driven: ", status.message));
+    logLater(LogLevel::kWarn, text(getName(), ": goal of ", request.caller, " refused: ", status.message));
+  } else {
+    driven_ = request.id;
+  }
+  goals_->answered(request.goal, status);
+}
+
+CommandStatus MoveBaseAdapter::carryOut(const Request& request) {
+  try {
+    const CommandStatus status = call(request);
+    if (hasEnded(status)) return status;
+    const std::optional<CommandSerial> serial = context().registry().serialOf(status.command_id);
+    if (!serial) throw InternalError(text("command ", status.command_id, " was sent, and is not known"));
+    try {
+      goals_->admitted(request.goal, *serial);
+    } catch (const Cancelled&) {
+      return context().cancel(*serial, "the client of its goal").status;
+    }
+    return status;
+  } catch (...) {
+    return statusFrom(std::current_exception(), 0);
+  }
+}
+
+CommandStatus MoveBaseAdapter::call(const Request& request) {
+  GoalPoseService::Goal goal;
+  goal.command_id = request.command_id;
+  goal.pose = toGoal(request.target, "target_pose", uses_heading_);
+  goal.has_heading = uses_heading_;
+  return service_->call(getNodeHandle(), goal, arrivalHeader(context().gate(), request.arrival, request.time)).status;
+}
+
+nav_msgs::GetPlan::Response MoveBaseAdapter::makePlan(const nav_msgs::GetPlan::Request& request,
+                                                      const std::string& caller) {
+  nav_msgs::GetPlan::Response response;
+  response.plan.header.frame_id = context().params().map_frame;
+  response.plan.header.stamp = ros::Time::now();
+  try {
+    for (const PathPoint& point : findPlan(request, caller).points) {
+      response.plan.poses.push_back(
+          toPoseStamped({point.x, point.y, point.heading}, response.plan.header.frame_id, response.plan.header.stamp));
+    }
+  } catch (...) {
+    // move_base answers with an empty plan, too.
+    logLater(LogLevel::kWarn,
+             text(getName(), ": no plan for ", caller, ": ", statusFrom(std::current_exception(), 0).message));
+  }
+  return response;
+}
+
+PlannedPath MoveBaseAdapter::findPlan(const nav_msgs::GetPlan::Request& request, const std::string& caller) {
+  callers_.require(caller, action_name_ + "/make_plan");
+  requireNotNegative(request.tolerance, "tolerance");
+  GoalPoseService::Goal goal;
+  goal.pose = toGoal(request.goal, "goal", uses_heading_);
+  goal.has_heading = uses_heading_;
+  if (!request.start.header.frame_id.empty()) goal.start = toGoal(request.start, "start", true);
+  const auto run = [&](const GoalPoseService::Goal& tried) { return service_->call(getNodeHandle(), tried, {}); };
+  return external_command::findPlan(run, goal, request.tolerance);
+}
+
+Pose2d MoveBaseAdapter::toGoal(const geometry_msgs::PoseStamped& pose, const std::string& name,
+                               bool has_heading) const {
+  requireFinite(pose.pose.position, name + ".pose.position");
+  const Pose2d given{pose.pose.position.x, pose.pose.position.y,
+                     has_heading ? headingOf(pose.pose.orientation, name) : 0.0};
+  return compose(context().vehiclePose().ofFrame(pose.header.frame_id), given);
+}
+
+}  // namespace external_command

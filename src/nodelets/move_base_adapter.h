@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <geometry_msgs/PoseStamped.h>
+#include <nav_msgs/GetPlan.h>
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "external_command/ros/action_goals.h"
+#include "external_command/ros/caller_limits.h"
+#include "external_command/ros/command_processor.h"
+#include "goal_pose_service.h"
+
+namespace external_command {
+
+/// Serves what programs for move_base speak, by calls of one of the motion services: the action `move_base`, the
+/// service `make_plan` and the topic `move_base_simple/goal`. One goal at a time: a newer one takes the place of an
+/// older one, and ends its motion, too, where it cannot be driven itself. Belongs into the process of the component.
+class MoveBaseAdapter : public CommandProcessor {
+ public:
+  MoveBaseAdapter();
+  ~MoveBaseAdapter() override;
+
+ private:
+  class Front;  // actionlib's part
+  friend class Front;
+
+  /// A goal, from its arrival until the service has answered.
+  struct Request {
+    std::string id;
+    ActionGoals::GoalPtr goal;
+    geometry_msgs::PoseStamped target;
+    std::string caller;
+    ArrivalNumber arrival = 0;
+    ros::WallTime time;
+    std::int64_t command_id = 0;
+    bool is_cancelled = false;
+  };
+
+  void start() override;
+  void open() override;
+
+  /// At the door: puts the goal in line in place of the one that is there, cancels what is being planned.
+  void take(Request request);
+  void cancel(const std::string& id);
+
+  /// On the lane of calls.
+  void carryOutNext();
+  CommandStatus carryOut(const Request& request);
+  CommandStatus call(const Request& request);
+
+  /// On the lane of the goals, some times per second.
+  void tick();
+
+  /// A plan that is in work cannot be cancelled before the service knows it: tried until it is.
+  void cancelInWork(const std::string& id, const std::string& by);
+
+  nav_msgs::GetPlan::Response makePlan(const nav_msgs::GetPlan::Request& request, const std::string& caller);
+  PlannedPath findPlan(const nav_msgs::GetPlan::Request& request, const std::string& caller);
+
+  /// In the map frame. @param has_heading  false: the orientation is not looked at.
+  /// @throws InvalidRequest  not finite, not a rotation about the vertical, or of a frame that tf does not know.
+  Pose2d toGoal(const geometry_msgs::PoseStamped& pose, const std::string& name, bool has_heading) const;
+
+  std::string action_name_ = "move_base";
+  std::string goal_topic_ = "move_base_simple/goal";
+  bool uses_heading_ = true;
+  CallerLimits callers_;
+  std::unique_ptr<GoalPoseService> service_;
+  std::atomic<std::int64_t> next_id_{0};
+
+  std::mutex mutex_;
+  std::optional<Request> waiting_, in_work_;  ///< guarded by mutex_
+  std::string driven_;                        ///< id of the last goal that was sent; of the lane of calls
+
+  std::unique_ptr<ActionGoals> goals_;
+  std::unique_ptr<Front> front_;
+  DedicatedLane plans_{LaneOptions{"the move_base adapter's lane of plans"}};
+  ros::ServiceServer make_plan_;
+  DedicatedLane calls_{LaneOptions{"the move_base adapter's lane of calls"}};
+};
+
+}  // namespace external_command
