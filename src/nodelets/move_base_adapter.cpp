@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "move_base_adapter.h"
 
-#include <move_base_msgs/MoveBaseAction.h>
 #include <tf2/LinearMath/Quaternion.h>
 #include <tf2/utils.h>
 
 #include <utility>
 
 #include "external_command/core/text.h"
-#include "external_command/ros/action_server.h"
 #include "external_command/ros/bounded_service.h"
 #include "external_command/ros/checks.h"
 #include "external_command/ros/request_arrival.h"
@@ -19,20 +17,8 @@ namespace external_command {
 
 namespace {
 
-constexpr double kPeriod = 0.1;     // half of that of feedback and status [s]
 constexpr double kUpright = 0.999;  // of the vertical axis, after the rotation
 constexpr const char* kNewer = "a newer goal";
-
-geometry_msgs::PoseStamped toPoseStamped(const Pose2d& pose, const std::string& frame, const ros::Time& stamp) {
-  geometry_msgs::PoseStamped message;
-  message.header.frame_id = frame;
-  message.header.stamp = stamp;
-  message.pose.position.x = pose.x;
-  message.pose.position.y = pose.y;
-  message.pose.orientation.z = std::sin(0.5 * pose.heading);
-  message.pose.orientation.w = std::cos(0.5 * pose.heading);
-  return message;
-}
 
 /// As move_base has it: what is not a rotation about the vertical is most likely a mistake.
 double headingOf(const geometry_msgs::Quaternion& given, const std::string& name) {
@@ -51,106 +37,6 @@ double headingOf(const geometry_msgs::Quaternion& given, const std::string& name
 }
 
 }  // namespace
-
-/// actionlib's part: kept apart, since it takes long to compile.
-class MoveBaseAdapter::Front {
- public:
-  using Server = BoundedActionServer<move_base_msgs::MoveBaseAction>;
-
-  explicit Front(MoveBaseAdapter& adapter)
-      : adapter_(adapter),
-        server_(adapter.context(), adapter.getNodeHandle(), adapter.getNodeHandle().resolveName(adapter.action_name_),
-                {[this](Server::GoalHandle handle, const GoalArrival& how) { take(handle, how); },
-                 [this](Server::GoalHandle handle) { adapter_.cancel(handle.getGoalID().id); }}) {}
-
-  void open() {
-    server_.open();
-    ros::NodeHandle nh(adapter_.getNodeHandle());
-    ros::SteadyTimerOptions options;
-    options.period = ros::WallDuration(kPeriod);
-    options.callback = [this](const ros::SteadyTimerEvent&) {
-      adapter_.goals_->look();
-      is_even_ = !is_even_;
-      if (is_even_) return;
-      server_.tick();
-      adapter_.tick();
-    };
-    options.callback_queue = adapter_.goals_->lane().queue();
-    timer_ = nh.createSteadyTimer(options);
-    if (adapter_.goal_topic_.empty()) return;
-    nh.setCallbackQueue(server_.door().queue());
-    const auto on_goal = [this](const ros::MessageEvent<geometry_msgs::PoseStamped const>& event) {
-      const auto goal = boost::make_shared<move_base_msgs::MoveBaseActionGoal>();
-      goal->goal.target_pose = *event.getConstMessage();
-      server_.take(goal, {event.getPublisherName(), GuardedQueue::stampOfRunningCallback(), {}});
-    };
-    simple_goals_ = subscribeBounded<geometry_msgs::PoseStamped>(nh, adapter_.goal_topic_, 10, on_goal,
-                                                                 adapter_.context().params().requests);
-  }
-
-  void close() {
-    simple_goals_.shutdown();
-    server_.close();
-    timer_.stop();
-  }
-
- private:
-  class Client : public ClientGoal {
-   public:
-    Client(const Server::GoalHandle& handle, ProcessContext& context) : handle_(handle), context_(context) {}
-
-    void accept() override { handle_.setAccepted(); }
-
-    void tell(const CommandStatus& /*status*/) override {
-      move_base_msgs::MoveBaseFeedback feedback;
-      try {
-        feedback.base_position =
-            toPoseStamped(context_.vehiclePose().get(), context_.params().map_frame, ros::Time::now());
-      } catch (const Error&) {
-        return;  // the localization has paused
-      }
-      handle_.publishFeedback(feedback);
-    }
-
-    void end(GoalEnd end, const CommandStatus& status) override {
-      if (end == GoalEnd::kSucceeded) return handle_.setSucceeded({}, "Goal reached.");
-      if (end == GoalEnd::kCanceled) return handle_.setCanceled({}, status.message);
-      handle_.setAborted({}, status.message);
-    }
-
-   private:
-    Server::GoalHandle handle_;
-    ProcessContext& context_;
-  };
-
-  /// move_base accepts whatever comes, and aborts what it cannot do.
-  void take(Server::GoalHandle handle, const GoalArrival& how) {
-    Request request;
-    request.id = handle.getGoalID().id;
-    request.goal = adapter_.goals_->add(request.id, std::make_unique<Client>(handle, adapter_.context()),
-                                        ActionGoals::Accept::kAtOnce);
-    try {
-      if (how.fault) std::rethrow_exception(how.fault);
-      adapter_.callers_.require(how.caller, adapter_.action_name_);
-    } catch (...) {
-      adapter_.goals_->begin(request.goal);
-      return adapter_.goals_->answered(request.goal, statusFrom(std::current_exception(), 0));
-    }
-    request.target = handle.getGoal()->target_pose;
-    request.caller = how.caller;
-    request.arrival = how.arrival;
-    request.time = ros::WallTime::now();
-    adapter_.take(std::move(request));
-  }
-
-  MoveBaseAdapter& adapter_;
-  Server server_;
-  ros::Subscriber simple_goals_;
-  bool is_even_ = false;  ///< of the timer
-  ros::SteadyTimer timer_;
-};
-
-MoveBaseAdapter::MoveBaseAdapter() = default;
 
 MoveBaseAdapter::~MoveBaseAdapter() {
   make_plan_.shutdown();
@@ -183,7 +69,13 @@ void MoveBaseAdapter::start() {
 
 void MoveBaseAdapter::open() {
   goals_ = std::make_unique<ActionGoals>(context(), action_name_);
-  front_ = std::make_unique<Front>(*this);
+  MoveBaseFront::Callbacks front;
+  front.require = [this](const std::string& caller) { callers_.require(caller, action_name_); };
+  front.goal = [this](MoveBaseFront::Arrived goal) { take(std::move(goal)); };
+  front.cancel = [this](const std::string& id) { cancel(id); };
+  front.tick = [this] { tick(); };
+  front_ =
+      std::make_unique<MoveBaseFront>(context(), getNodeHandle(), action_name_, goal_topic_, *goals_, std::move(front));
   BoundedServiceCallbacks<nav_msgs::GetPlan> callbacks;
   callbacks.answer = [this](const nav_msgs::GetPlan::Request& request, const MessageSize& /*size*/,
                             const ros::M_string& header) {
@@ -206,12 +98,12 @@ void MoveBaseAdapter::open() {
   front_->open();
 }
 
-void MoveBaseAdapter::take(Request request) {
-  request.command_id = next_id_++;
+void MoveBaseAdapter::take(MoveBaseFront::Arrived goal) {
+  Request request{std::move(goal), ros::WallTime::now(), next_id_++};
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (waiting_) goals_->cancel(waiting_->id, kNewer);
-    if (in_work_) cancelInWork(in_work_->id, kNewer);
+    if (waiting_) goals_->cancel(waiting_->arrived.id, kNewer);
+    if (in_work_) cancelInWork(in_work_->arrived.id, kNewer);
     waiting_ = std::move(request);
   }
   calls_.post([this] { carryOutNext(); });
@@ -220,7 +112,7 @@ void MoveBaseAdapter::take(Request request) {
 void MoveBaseAdapter::cancel(const std::string& id) {
   const std::lock_guard<std::mutex> lock(mutex_);
   goals_->cancel(id, "the client of its goal");
-  if (in_work_ && in_work_->id == id) cancelInWork(id, "the client of its goal");
+  if (in_work_ && in_work_->arrived.id == id) cancelInWork(id, "the client of its goal");
 }
 
 void MoveBaseAdapter::cancelInWork(const std::string& id, const std::string& by) {
@@ -230,7 +122,6 @@ void MoveBaseAdapter::cancelInWork(const std::string& id, const std::string& by)
 }
 
 void MoveBaseAdapter::tick() {
-  goals_->tick();
   const std::lock_guard<std::mutex> lock(mutex_);
   if (in_work_ && in_work_->is_cancelled) context().cancelById(in_work_->command_id, "its goal");
 }
@@ -242,7 +133,7 @@ void MoveBaseAdapter::carryOutNext() {
     if (!waiting_) return;  // a newer one has taken its place, and was carried out
     request = *std::move(waiting_);
     waiting_.reset();
-    if (!goals_->begin(request.goal)) return goals_->cancel(driven_, "the cancel of a newer goal");
+    if (!goals_->begin(request.arrived.goal)) return goals_->cancel(driven_, "the cancel of a newer goal");
     in_work_ = request;
   }
   const CommandStatus status = carryOut(request);
@@ -255,11 +146,11 @@ void MoveBaseAdapter::carryOutNext() {
   if (hasEnded(status)) {
     // The vehicle must not drive on to a goal that nobody has any more.
     if (is_last) goals_->cancel(driven_, text("a newer goal that is not driven: ", status.message));
-    logLater(LogLevel::kWarn, text(getName(), ": goal of ", request.caller, " refused: ", status.message));
+    logLater(LogLevel::kWarn, text(getName(), ": goal of ", request.arrived.caller, " refused: ", status.message));
   } else {
-    driven_ = request.id;
+    driven_ = request.arrived.id;
   }
-  goals_->answered(request.goal, status);
+  goals_->answered(request.arrived.goal, status);
 }
 
 CommandStatus MoveBaseAdapter::carryOut(const Request& request) {
@@ -269,7 +160,7 @@ CommandStatus MoveBaseAdapter::carryOut(const Request& request) {
     const std::optional<CommandSerial> serial = context().registry().serialOf(status.command_id);
     if (!serial) throw InternalError(text("command ", status.command_id, " was sent, and is not known"));
     try {
-      goals_->admitted(request.goal, *serial);
+      goals_->admitted(request.arrived.goal, *serial);
     } catch (const Cancelled&) {
       return context().cancel(*serial, "the client of its goal").status;
     }
@@ -282,9 +173,10 @@ CommandStatus MoveBaseAdapter::carryOut(const Request& request) {
 CommandStatus MoveBaseAdapter::call(const Request& request) {
   GoalPoseService::Goal goal;
   goal.command_id = request.command_id;
-  goal.pose = toGoal(request.target, "target_pose", uses_heading_);
+  goal.pose = toGoal(request.arrived.target, "target_pose", uses_heading_);
   goal.has_heading = uses_heading_;
-  return service_->call(getNodeHandle(), goal, arrivalHeader(context().gate(), request.arrival, request.time)).status;
+  return service_->call(getNodeHandle(), goal, arrivalHeader(context().gate(), request.arrived.arrival, request.time))
+      .status;
 }
 
 nav_msgs::GetPlan::Response MoveBaseAdapter::makePlan(const nav_msgs::GetPlan::Request& request,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <geometry_msgs/PoseStamped.h>
 #include <nav_msgs/GetPlan.h>
 
 #include <atomic>
@@ -11,10 +10,10 @@
 #include <optional>
 #include <string>
 
-#include "external_command/ros/action_goals.h"
 #include "external_command/ros/caller_limits.h"
 #include "external_command/ros/command_processor.h"
 #include "goal_pose_service.h"
+#include "move_base_front.h"
 
 namespace external_command {
 
@@ -23,20 +22,13 @@ namespace external_command {
 /// older one, and ends its motion, too, where it cannot be driven itself. Belongs into the process of the component.
 class MoveBaseAdapter : public CommandProcessor {
  public:
-  MoveBaseAdapter();
+  MoveBaseAdapter() = default;
   ~MoveBaseAdapter() override;
 
  private:
-  class Front;  // actionlib's part
-  friend class Front;
-
   /// A goal, from its arrival until the service has answered.
   struct Request {
-    std::string id;
-    ActionGoals::GoalPtr goal;
-    geometry_msgs::PoseStamped target;
-    std::string caller;
-    ArrivalNumber arrival = 0;
+    MoveBaseFront::Arrived arrived;
     ros::WallTime time;
     std::int64_t command_id = 0;
     bool is_cancelled = false;
@@ -46,7 +38,7 @@ class MoveBaseAdapter : public CommandProcessor {
   void open() override;
 
   /// At the door: puts the goal in line in place of the one that is there, cancels what is being planned.
-  void take(Request request);
+  void take(MoveBaseFront::Arrived goal);
   void cancel(const std::string& id);
 
   /// On the lane of calls.
@@ -54,7 +46,7 @@ class MoveBaseAdapter : public CommandProcessor {
   CommandStatus carryOut(const Request& request);
   CommandStatus call(const Request& request);
 
-  /// On the lane of the goals, some times per second.
+  /// On the lane of the goals.
   void tick();
 
   /// A plan that is in work cannot be cancelled before the service knows it: tried until it is.
@@ -79,7 +71,7 @@ class MoveBaseAdapter : public CommandProcessor {
   std::string driven_;                        ///< id of the last goal that was sent; of the lane of calls
 
   std::unique_ptr<ActionGoals> goals_;
-  std::unique_ptr<Front> front_;
+  std::unique_ptr<MoveBaseFront> front_;
   DedicatedLane plans_{LaneOptions{"the move_base adapter's lane of plans"}};
   ros::ServiceServer make_plan_;
   DedicatedLane calls_{LaneOptions{"the move_base adapter's lane of calls"}};

@@ -21,7 +21,7 @@ class Service {
     GoalPoseService::Answer answer;
     const bool is_taken = goal.pose.x >= free_from;
     answer.status.status = is_taken ? CommandStatus::FINISHED : CommandStatus::ERROR;
-    answer.status.error_code = is_taken ? CommandStatus::OK : code;
+    if (!is_taken) answer.status.error_code = code;
     answer.status.message = "blocked";
     PathPoint last;
     last.x = goal.pose.x;

@@ -2,6 +2,7 @@
 #include "external_command/ros/goal_subscription.h"
 
 #include <gtest/gtest.h>
+#include <ros/time.h>
 
 #include <cstring>
 #include <optional>
@@ -36,6 +37,8 @@ Bytes bytesOf(const Goal& goal) {
 
 class GoalSubscription : public testing::Test {
  protected:
+  GoalSubscription() { ros::Time::init(); }
+
   /// What arrives of the bytes; nullopt where they are dropped.
   std::optional<ArrivedGoal<Goal>> take(Bytes bytes) {
     std::optional<ArrivedGoal<Goal>> taken;
