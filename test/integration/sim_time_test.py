@@ -7,18 +7,22 @@ import unittest
 
 import rospy
 import rostest
+from actionlib_msgs.msg import GoalStatus
 from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import Point
 from rosgraph_msgs.msg import Clock
 
 import support
-from external_command.msg import CommandStatus, LaneFollowCommand, Pose, Readiness
+from external_command.msg import CommandStatus, LaneFollowCommand, PathFollowCommand, Pose, Readiness
 from external_command.srv import CancelCommand, LaneFollow
+from goals import BareClient
 from localization import Localization
 
 
 class SimulatedTime:
     def __init__(self, seconds):
         self.now = seconds
+        self.passes = True
         self._publisher = rospy.Publisher("/clock", Clock, queue_size=1)
         threading.Thread(target=self._run, daemon=True).start()
 
@@ -26,10 +30,23 @@ class SimulatedTime:
         while not rospy.is_shutdown():
             self._publisher.publish(Clock(rospy.Time.from_sec(self.now)))
             time.sleep(0.02)
-            self.now += 0.02
+            self.now += 0.02 if self.passes else 0.0
+
+    def jump(self, seconds):
+        self.now = seconds
+        support.wait_until(lambda: abs(rospy.get_time() - seconds) < 100.0, "time has jumped")
 
 
 class SimTimeTest(unittest.TestCase):
+    _time = None
+
+    @classmethod
+    def time_from(cls, seconds):
+        """The simulated time, which the first that asks for it lets begin."""
+        cls._time = cls._time or SimulatedTime(seconds)
+        cls._time.jump(seconds)
+        return cls._time
+
     def test_before_time_begins_it_is_told_what_is_missing(self):
         self.assertEqual(rospy.get_time(), 0.0, "nobody publishes a clock yet")
         readiness = support.Collector("external_command/readiness", Readiness)
@@ -42,9 +59,30 @@ class SimTimeTest(unittest.TestCase):
         unknown = support.service("external_command/cancel_command", CancelCommand)(command_id=1)
         self.assertEqual(unknown.status.error_code, CommandStatus.UNKNOWN_ID)
 
+    def test_goals_end_whether_time_jumps_back_or_stands_still(self):
+        simulated = self.time_from(5000.0)
+        client = BareClient("path_follow")
+        command = PathFollowCommand(way_point=[Point(0.0, 0.0, 0.0), Point(10.0, 0.0, 0.0)], dry_run=True)
+
+        def assert_succeeds(goal_id):
+            client.send(goal_id, command, rospy.Time.now())
+            self.assertEqual(client.end(goal_id).status.status, GoalStatus.SUCCEEDED)
+
+        assert_succeeds("before")
+        client.cancel("all that was sent before", rospy.Time.now())
+        client.wait_until_known("all that was sent before", GoalStatus.RECALLING)
+        client.send("late", command, rospy.Time(4500.0))
+        self.assertEqual(client.end("late").status.status, GoalStatus.RECALLED)
+        simulated.jump(10.0)
+        support.wait_until(lambda: client.states.messages[-1].header.stamp.to_sec() < 4000.0, "states after the jump")
+        assert_succeeds("after the jump")
+        simulated.passes = False
+        assert_succeeds("while time stands still")
+        simulated.passes = True
+        client.close()
+
     def test_the_pose_is_known_again_after_time_jumped_back(self):
-        simulated = SimulatedTime(5000.0)
-        support.wait_until(lambda: rospy.get_time() >= 5000.0, "time goes on")
+        simulated = self.time_from(5000.0)
         localization = Localization(100.0, 195.0)
         localization.start()
         call = support.service("external_command/lane_follow", LaneFollow)
@@ -55,7 +93,7 @@ class SimTimeTest(unittest.TestCase):
 
         support.wait_until(lambda: abs(start() - 100.0) < 0.5, "the pose is known")
         localization.x = 120.0
-        simulated.now = 10.0
+        simulated.jump(10.0)
         support.wait_until(lambda: abs(start() - 120.0) < 0.5, "the pose after the jump is known", 5.0)
 
 

@@ -76,7 +76,8 @@ class BoundedActionServer : public actionlib::ActionServerBase<Action> {
     pace_.pauseIfFlooded();
     {
       const boost::recursive_mutex::scoped_lock lock(this->lock_);
-      this->last_cancel_ = std::min(this->last_cancel_, latestStamp());  // simulated time may have been set back
+      // Simulated time was set back since: goals have stamps of a time that begins anew.
+      if (this->last_cancel_ > latestStamp()) this->last_cancel_ = ros::Time();
       if (!how.fault && countAlive() >= most_goals_) {
         how.fault = std::make_exception_ptr(
             NotReady(text("busy: ", most_goals_, " goals of ", name_, " have not ended; send it again in a moment")));
