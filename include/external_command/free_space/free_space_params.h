@@ -33,7 +33,7 @@ struct FreeSpaceParams {
 };
 
 /// Names that FreeSpaceParams::planner takes: "portfolio" (the default: own search, shortening, improvement),
-/// "hybrid_astar" (the search alone), and OMPL's "rrtconnect", "bitstar", "rrtstar", "kpiece" on Reeds-Shepp curves.
+/// "hybrid_astar" (the search alone), and OMPL's "rrtconnect", "rrtstar", "kpiece" on Reeds-Shepp curves.
 const std::vector<std::string>& freeSpacePlanners();
 
 }  // namespace external_command
