@@ -12,6 +12,18 @@ from processes import Node
 LANE_FOLLOW = "external_command/LaneFollowCommandProcessor"
 
 
+def configuration(**changes):
+    """The parameters of the files in config/, with `changes` of the component's own."""
+    folder = os.path.join(rospkg.RosPack().get_path("external_command"), "config")
+
+    def read(name):
+        with open(os.path.join(folder, name), encoding="utf-8") as file:
+            return yaml.safe_load(file)
+    parameters = read("external_command.yaml")
+    parameters["external_command"].update(read("processors.yaml"), vehicle=read("vehicle.yaml"), **changes)
+    return parameters
+
+
 class Component(Node):
     """`external_command_process` in `namespace`; `parameters`: those of the namespace. A parameter of the vehicle that is
     None is not set.
@@ -47,9 +59,7 @@ class Component(Node):
         vehicle = own.get("vehicle", {})
         if not own or not isinstance(vehicle, dict):
             return parameters
-        config = os.path.join(rospkg.RosPack().get_path("external_command"), "config", "vehicle.yaml")
-        with open(config, encoding="utf-8") as file:
-            complete = dict(yaml.safe_load(file), **vehicle)
+        complete = dict(configuration()["external_command"]["vehicle"], **vehicle)
         size = {key: value for key, value in complete.items() if value is not None}
         return dict(parameters, external_command=dict(own, vehicle=size))
 

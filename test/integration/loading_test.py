@@ -10,13 +10,11 @@ import time
 import unittest
 
 import rosgraph
-import rospkg
 import rospy
 import rostest
-import yaml
 
 import support
-from component import LANE_FOLLOW, Component
+from component import LANE_FOLLOW, Component, configuration
 from external_command.msg import CommandStatus
 from external_command.srv import GetCommandStatus
 from processes import Launch, Process
@@ -199,13 +197,7 @@ class LoadingTest(unittest.TestCase):
             "parameter %slane_follow_command_processor/colour is set, but nothing reads it" % prefix)
 
     def test_says_when_it_is_ready_and_what_it_serves_and_warns_of_nothing_in_its_own_configuration(self):
-        folder = os.path.join(rospkg.RosPack().get_path("external_command"), "config")
-        with open(os.path.join(folder, "external_command.yaml"), encoding="utf-8") as file:
-            parameters = yaml.safe_load(file)
-        with open(os.path.join(folder, "processors.yaml"), encoding="utf-8") as file:
-            parameters["external_command"].update(yaml.safe_load(file))
-        parameters["external_command"]["more_processors"] = [ADAPTER]
-        with Component(NAMESPACE, parameters) as started:
+        with Component(NAMESPACE, configuration(more_processors=[ADAPTER])) as started:
             support.wait_until(lambda: "is ready" in started.output, "it is ready")
             ready = next(line for line in started.output.splitlines() if "is ready" in line)
             for service in ("lane_follow", "valet_parking", "free_space", "path_follow", "precise_parking", "zone_cover",
