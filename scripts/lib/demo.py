@@ -14,6 +14,7 @@ from demo_stack import DemoError, Stack
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(__file__), "..", ".."))
 DEMO_MAP = os.path.join(ROOT, "maps/demo_town/base_map.bin")  # around (0, 0): needs no origin
+RVIZ_CONFIG = os.path.join(ROOT, "rviz/external_command.rviz")
 DEMO_ROUTE = ([90.0, 195.0, 0.0], [510.0, 205.0])  # from west to east: a lane change, a roundabout, bends
 
 
@@ -53,6 +54,8 @@ def parse_arguments(words):
     parser.add_argument("--picture", type=os.path.abspath, metavar="FILE",
                         help="where the picture of rviz goes; default: demo.png in the build folder")
     parser.add_argument("--no-rviz", action="store_true", help="no rviz, no picture")
+    parser.add_argument("--tour", action="store_true", help="instead of one drive, every example of README.md, one after "
+                        "the other, some minutes; rviz goes with the vehicle, a picture of each motion is left")
     parser.add_argument("--keep", action="store_true", help="leave everything running, and tell how to speak to it")
     parser.add_argument("--stop", action="store_true", help="end what --keep left running, and nothing else")
     parser.add_argument("--check", action="store_true", help=argparse.SUPPRESS)  # only the words
@@ -63,6 +66,8 @@ def parse_arguments(words):
         parser.error(f"--speed-up is {args.speed_up}; it must be above 0")
     if not args.stop and not os.path.isfile(args.map):
         parser.error(f"there is no map file {args.map}")
+    if args.tour and (args.map != DEMO_MAP or args.start):
+        parser.error("--tour drives on the demo map, from where its examples begin; leave out --map, --from and --to")
     if args.map == DEMO_MAP and not args.start:
         args.start, args.goal = DEMO_ROUTE
     args.picture = args.picture or os.path.join(args.build_dir, "demo.png")
@@ -86,21 +91,21 @@ def stop_kept(build_dir):
     print(f"ended {len(marks)} demo(s) that --keep had left running")
 
 
-def keep(stack, build_dir, drive, start):
+def keep(stack, build_dir, drive):
     with open(kept_file(build_dir), "a", encoding="utf-8") as file:
         file.write(stack.mark + "\n")
+    back = f"x: {drive.start.x:.1f}, y: {drive.start.y:.1f}"
     print(f"""
 Everything is left running. To speak to it:
   export ROS_MASTER_URI={stack.master_uri} ROS_HOSTNAME=localhost
   source {build_dir}/devel/setup.bash
   rosservice list /apollo/external_command
-  rosservice call /apollo/external_command/command_status "command_id: {drive.command_id}"
-  rosservice call /apollo/external_command/lane_follow "command: {{end_pose: {{x: {start.x:.1f}, y: {start.y:.1f}}}}}"
-To end it: scripts/demo --stop""")
+  rosservice call /apollo/external_command/lane_follow "command: {{end_pose: {{{back}}}}}"   # back to the start
+README.md has an example of each service. To end it: scripts/demo --stop""")
 
 
 def run(args, stack):
-    """Returns whether the vehicle has arrived, with a picture where one was wanted."""
+    """Returns whether all commands have FINISHED, with a picture where one was wanted."""
     stack.launch("demo.launch", map=args.map, map_origin="none" if args.map == DEMO_MAP else "auto",
                  real_time_factor=args.speed_up, rviz="false")
     print(f"ROS master: export ROS_MASTER_URI={stack.master_uri}", flush=True)
@@ -108,19 +113,36 @@ def run(args, stack):
 
     drive = Drive(stack)
     drive.connect()
+    succeeded = go_on_tour(args, stack, drive) if args.tour else go_once(args, stack, drive)
+    if args.keep:
+        keep(stack, args.build_dir, drive)
+    return succeeded
+
+
+def go_once(args, stack, drive):
     start, goal = drive.choose(args.start, args.goal)
     drive.place(start)
     camera = None
     if not args.no_rviz:
         from demo_camera import Camera
         camera = Camera(stack, args.picture)
-        camera.open(os.path.join(ROOT, "rviz/external_command.rviz"), drive.extent, drive.length)
+        camera.open(RVIZ_CONFIG, drive.extent, drive.length)
     finished = drive.go(goal, camera)
     if camera:
         print(f"picture: {args.picture}" if camera.has_picture else f"no picture: {camera.problem}")
-    if args.keep:
-        keep(stack, args.build_dir, drive, start)
     return finished and (camera is None or camera.has_picture)
+
+
+def go_on_tour(args, stack, drive):
+    from demo_tour import Tour, Walk, read_examples
+    drive.place(drive.in_map(args.start))
+    walk = None
+    if not args.no_rviz:
+        from demo_camera import Camera
+        camera = Camera(stack, args.picture)
+        camera.follow(RVIZ_CONFIG)
+        walk = Walk(camera, args.build_dir)
+    return Tour(stack, drive.command_status, walk).go(read_examples(os.path.join(ROOT, "README.md")))
 
 
 def main():

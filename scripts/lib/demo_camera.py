@@ -16,6 +16,7 @@ WIDTH, HEIGHT = 1600, 1000  # of rviz's window [pixels]
 FRAME = 120  # pixels of the window's height that show no map
 MARGIN = 1.15
 START_TIMEOUT = 90.0  # [s]; drawing by software is slow
+FOLLOWING_SCALE = 12.0  # of a view that follows the vehicle [pixels/m]
 ENOUGH = 0.2  # of the pixels that a straight path would take
 
 
@@ -31,12 +32,26 @@ class Camera:
 
     def open(self, config, extent, path_length):
         """Starts rviz with the settings of file `config`, looking down on `extent` (min x, min y, max x, max y)."""
+        view = looking_down_on(extent)
+        self._start(config, view)
+        scale = view["Scale"]
+        self._enough_pixels = ENOUGH * path_length * demo_overlay.line_width(scale) * scale ** 2
+
+    def follow(self, config):
+        """Starts rviz looking down on the vehicle, wherever it goes."""
+        self._start(config, {"Target Frame": "base_link", "X": 0.0, "Y": 0.0, "Scale": FOLLOWING_SCALE})
+
+    def shoot(self, picture):
+        """Takes a picture of whatever is to be seen. What was wrong with it; empty: nothing."""
+        self._picture, self._enough_pixels = picture, 0
+        return self._shoot()
+
+    def _start(self, config, view):
         if not display_works():
             self._open_invisible_display()
         own_config = os.path.join(self._stack.log_dir, "demo.rviz")
-        scale = write_config(config, extent, own_config)
-        self._enough_pixels = ENOUGH * path_length * demo_overlay.line_width(scale) * scale ** 2
-        self.overlay = demo_overlay.Overlay(scale)
+        write_config(config, view, own_config)
+        self.overlay = demo_overlay.Overlay(view["Scale"])
         self._stack.spawn("rviz", ["rviz", "--display-config", own_config, "__ns:=/apollo"], QT_X11_NO_MITSHM="1",
                           **self._display)
         self._stack.wait_for(self._listens_to_markers, "rviz", START_TIMEOUT, "rviz")
@@ -96,25 +111,26 @@ def display_works():
         ["xdpyinfo"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False).returncode == 0
 
 
-def write_config(source, extent, target):
-    """A copy of an rviz configuration that looks straight down on `extent`, without side panels, in lines of a visible
-    width.
-
-    Returns the scale [pixels/m].
-    """
-    with open(source, encoding="utf-8") as file:
-        config = yaml.safe_load(file)
+def looking_down_on(extent):
+    """The settings of a view that shows (min x, min y, max x, max y) [m]; its scale is in pixels/m."""
     low_x, low_y, high_x, high_y = extent
     scale = min(WIDTH / max(high_x - low_x, 20.0), (HEIGHT - FRAME) / max(high_y - low_y, 20.0)) / MARGIN
-    view = config["Visualization Manager"]["Views"]["Current"]
-    view.clear()
-    view.update({"Class": "rviz/TopDownOrtho", "Name": "Current View", "Angle": 0.0, "Near Clip Distance": 0.01,
-                 "Scale": float(scale), "Target Frame": "<Fixed Frame>", "X": float(low_x + high_x) / 2.0,
-                 "Y": float(low_y + high_y) / 2.0})
+    return {"Target Frame": "<Fixed Frame>", "X": float(low_x + high_x) / 2.0, "Y": float(low_y + high_y) / 2.0,
+            "Scale": float(scale)}
+
+
+def write_config(source, view, target):
+    """A copy of an rviz configuration that looks straight down as `view` says, without side panels, in lines of a visible
+    width."""
+    with open(source, encoding="utf-8") as file:
+        config = yaml.safe_load(file)
+    current = config["Visualization Manager"]["Views"]["Current"]
+    current.clear()
+    current.update({"Class": "rviz/TopDownOrtho", "Name": "Current View", "Angle": 0.0, "Near Clip Distance": 0.01, **view})
     displays = config["Visualization Manager"]["Displays"]
     for display in displays:
         if display["Class"] == "rviz/Path":
-            display["Line Width"] = float(demo_overlay.line_width(scale))
+            display["Line Width"] = float(demo_overlay.line_width(view["Scale"]))
     displays.append({"Class": "rviz/MarkerArray", "Name": "Drive", "Enabled": True, "Value": True, "Namespaces": {},
                      "Marker Topic": demo_overlay.TOPIC, "Queue Size": 10})
     config["Visualization Manager"]["Global Options"]["Frame Rate"] = 10
@@ -122,7 +138,6 @@ def write_config(source, extent, target):
     geometry.update({"Width": WIDTH, "Height": HEIGHT, "X": 0, "Y": 0, "Hide Left Dock": True, "Hide Right Dock": True})
     with open(target, "w", encoding="utf-8") as file:
         yaml.safe_dump(config, file)
-    return float(scale)
 
 
 def count_pixels(picture, colours):

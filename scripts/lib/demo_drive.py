@@ -31,6 +31,7 @@ class Drive:
     def __init__(self, stack):
         self.extent = None  # of start, goal and route: (min x, min y, max x, max y) [m], once chosen
         self.length = 0.0  # of the route [m], once chosen
+        self.start = None  # where the vehicle was placed
         self.command_id = 0  # once sent
         self._stack = stack
         self._path = None
@@ -59,7 +60,7 @@ class Drive:
         if start is None:
             start, goal, answer = self._longest_route()
         else:
-            start = Pose(x=start[0] - self._origin[0], y=start[1] - self._origin[1], heading=start[2], has_heading=True)
+            start = self.in_map(start)
             goal = Pose(x=goal[0] - self._origin[0], y=goal[1] - self._origin[1])
             answer = self._dry_run(start, goal)
             if answer.status.status == CommandStatus.ERROR:
@@ -71,6 +72,13 @@ class Drive:
               f"{self.length:.0f} m over {len(answer.report.lane_ids)} lanes, "
               f"{answer.report.lane_changes} lane change(s)", flush=True)
         return start, goal
+
+    def command_status(self, command_id):
+        return self._client.status(command_id)
+
+    def in_map(self, pose):
+        """Pose of (x, y, heading) in the map file's coordinates."""
+        return Pose(x=pose[0] - self._origin[0], y=pose[1] - self._origin[1], heading=pose[2], has_heading=True)
 
     def _in_file(self, pose):
         """The position in the map file's coordinates, as --from and --to take it."""
@@ -104,6 +112,7 @@ class Drive:
 
     def place(self, pose):
         """Puts the simulated vehicle at `pose`."""
+        self.start = pose
         publisher = rospy.Publisher(NAMESPACE + "initialpose", PoseWithCovarianceStamped, queue_size=1, latch=True)
         message = PoseWithCovarianceStamped()
         message.header.frame_id = "map"
@@ -111,6 +120,7 @@ class Drive:
         message.pose.pose.orientation.z = math.sin(pose.heading / 2.0)
         message.pose.pose.orientation.w = math.cos(pose.heading / 2.0)
         publisher.publish(message)
+        self._stack.wait_for(publisher.get_num_connections, "the simulated vehicle", START_TIMEOUT)
 
         def has_arrived():
             position = self._position()

@@ -96,11 +96,22 @@ ec_apt_get() {
   local attempt
   for attempt in 1 2 3; do
     if "${apt[@]}" --quiet=2 update && ec_tell_size "${apt[@]}" -- "$@" &&
-      "${apt[@]}" --yes --quiet=2 install --no-install-recommends "$@" >/dev/null; then return 0; fi
+      ec_apt_install "${apt[@]}" -- "$@"; then return 0; fi
     [ "$attempt" -eq 3 ] || { echo "apt-get failed (attempt $attempt of 3); once more in 5 s" >&2 && sleep 5; }
   done
   ec_fail "apt-get could not install: $*" \
     "(names are of Debian 11 to 13 and sid, and of Ubuntu 20.04 with ROS Noetic; EC_NO_INSTALL=1 goes on without)"
+}
+
+# ec_apt_install APT_GET... -- PACKAGE...: installs, and counts how far it has come.
+ec_apt_install() {
+  local apt=()
+  while [ "$1" != -- ]; do apt+=("$1") && shift; done
+  shift
+  # apt tells its status on stdout: sudo closes other files.
+  (set -o pipefail &&
+    "${apt[@]}" --yes --quiet=2 -o APT::Status-Fd=1 install --no-install-recommends "$@" |
+    ec_count 's/^dlstatus:[^:]*:([0-9]+).*/fetching \1/p; s/^pmstatus:[^:]*:([0-9]+).*/installing \1/p')
 }
 
 # ec_tell_size APT_GET... -- PACKAGE...: says what apt-get would fetch, and how much the disk will hold of it.

@@ -74,6 +74,32 @@ ec_build() {
   ) 9>"$EC_BUILD_DIR/.lock" || exit 1
 }
 
+# ec_build_counted [TARGET...]: the same for who wants to use what is built: a count in place of the compilers' words,
+# which go to build.log in the build folder. Where the build fails the errors are shown.
+ec_build_counted() {
+  local log=$EC_BUILD_DIR/build.log
+  mkdir -p "$EC_BUILD_DIR"
+  (set -o pipefail && ec_build "$@" 2>&1 | tee "$log" | ec_count 's/^\[ *([0-9]+)%\].*/building \1/p') && return
+  grep --extended-regexp --max-count=20 '(error|Error|\*\*\*):? ' "$log" >&2 || true
+  ec_fail "the build failed; all it said is in $log"
+}
+
+# ec_count SED_SCRIPT: shows how far its input has come, as `building: 42 %, 3 min`. The script makes `building 42` of the
+# lines that tell it, and prints them. On a terminal one line is written over, elsewhere there is one each 10 %.
+ec_count() {
+  local what percent shown='' begin=$SECONDS step=10 end='\n'
+  if [ -t 1 ]; then step=1 end='\r'; fi
+  while read -r what percent; do
+    percent=$((percent - percent % step))
+    [ "$shown" != "$what $percent" ] || continue
+    if [ -t 1 ] && [ -n "$shown" ] && [ "${shown% *}" != "$what" ]; then echo; fi
+    shown="$what $percent"
+    # shellcheck disable=SC2059
+    printf "%s: %d %%, %d min$end" "$what" "$percent" $(((SECONDS - begin) / 60))
+  done < <(sed --unbuffered --quiet --regexp-extended "$1")
+  if [ -t 1 ] && [ -n "$shown" ]; then echo; fi
+}
+
 # Waits for the end of another run of tests in this build folder: results and logs lie there under fixed names.
 ec_one_at_a_time() {
   mkdir -p "$EC_BUILD_DIR"
