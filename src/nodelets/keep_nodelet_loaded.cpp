@@ -23,9 +23,10 @@ constexpr double kLongestPause = 60.0;  // between two tries that fail, and befo
 
 constexpr const char* kUsage = R"(Usage: keep_nodelet_loaded TYPE MANAGER [ARGUMENT...]
 
-Loads a nodelet into a manager, and again whenever the manager has been started anew. As `nodelet load` does, but without
-its bond: that unloads the nodelet when the loader is starved, or suspended, for some seconds. The nodelet takes this
-node's name, and its parameters. It is unloaded when this process is told to end, and stays where this process dies.
+Loads a nodelet into a manager, and again whenever the manager has been started anew. As `rosrun nodelet nodelet load`
+does, but without its bond: that unloads the nodelet when the loader is starved, or suspended, for some seconds. The
+nodelet takes this node's name, and its parameters. It is unloaded when this process is told to end, and stays where this
+process dies.
 )";
 
 /// One nodelet in one manager.

@@ -2,6 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """The adapter for legacy routing requests: what becomes of them, and that each refusal is answered."""
 import math
+import os
+import re
+import sys
+import types
 import unittest
 
 import rosgraph
@@ -13,6 +17,9 @@ import support
 from external_command.msg import (CommandStatus, DeadEndInfo, LaneFollowCommand, LaneSegment, LaneWaypoint,
                                   ParkingInfo, PlanningCommand, Pose, RoutingRequest, RoutingResponse)
 from external_command.srv import LaneFollow
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "support"))
+import document_tables as document  # noqa: E402  (of this package's sources)
 
 SPACE = "n_out_10"
 FAR_AWAY = Point(460.0, 338.0, 0.0)
@@ -198,6 +205,17 @@ class OldRoutingTest(unittest.TestCase):
         goal = PoseStamped()
         goal.header.frame_id = "no_such_frame"
         self._refused(self.goals, goal, CommandStatus.INVALID_REQUEST, "no_such_frame")
+
+
+    def test_the_two_programs_of_the_page_make_the_vehicle_drive_the_same(self):
+        before, after = re.findall(r"^```python\n(.*?)^```$", document.page("old_routing.md"), re.MULTILINE | re.DOTALL)
+        names = dict(globals(), rospy=types.SimpleNamespace(
+            Publisher=lambda topic, message_type, queue_size: publisher(topic, message_type),
+            ServiceProxy=rospy.ServiceProxy, logerr=rospy.logerr))
+        paths = [self._command_after(lambda: exec(program, names)).path.points  # pylint: disable=exec-used
+                 for program in (before, after)]
+        self.assertEqual(names["answer"].status.error_code, CommandStatus.OK)
+        self.assertLess(math.hypot(paths[0][-1].x - paths[1][-1].x, paths[0][-1].y - paths[1][-1].y), 0.6)  # one may have been reached
 
 
 if __name__ == "__main__":
