@@ -22,6 +22,7 @@ from processes import Launch
 ROOT = rospkg.RosPack().get_path("external_command")
 MAP = os.path.join(ROOT, "maps", "demo_town", "base_map.bin")
 NAMESPACE = "/offered_values_test"
+ADAPTER = "external_command/MoveBaseAdapter"
 MANOEUVRES = ("lane_follow", "valet_parking", "free_space", "precise_parking", "zone_cover")
 
 # Parameters with words for values, and those whose comment says what true, false, empty or a number means.
@@ -36,6 +37,7 @@ OFFERED = {
     "external_command/require_all": [True, False],
     "external_command/routing/refuse_undrivable": [False, True],
     "external_command/routing/max_path_start_distance": [0.0, 500.0],
+    "lane_follow_command_processor/actions": [True, False],
     "lane_follow_command_processor/allowed_callers": [[], ["/offered_values_test"]],
     "lane_follow_command_processor/obstacle_grid_name": ["", "grid"],
     "lane_follow_command_processor/max_grid_age": [0.0, 2.0],
@@ -50,10 +52,14 @@ OFFERED = {
     "zone_cover_command_processor/progress_folder": [""],
     "path_follow_command_processor/input_path_name": ["", "a_path"],
     "path_follow_command_processor/max_start_distance": [0.0, 500.0],
+    "move_base_adapter/service": ["lane_follow", "lane_follow", "free_space", "precise_parking"],
+    "move_base_adapter/service_name": [""],
+    "move_base_adapter/use_heading": [True, False, True, True],  # False for lane_follow only
 }
 ELSEWHERE = {  # parameter: the test in which its values are set
     "lane_follow_command_processor/enabled": "hostile_requests_test.py",
     "old_routing_adapter/goal_name": "old_routing.test",
+    "move_base_adapter/goal_name": "move_base.test",
 }
 VARIANTS = max(map(len, OFFERED.values()))
 
@@ -82,7 +88,7 @@ class Variant(Component):
     """The gateway with the `number`th of the values of each parameter, or the first again where there are fewer."""
 
     def __init__(self, number):
-        parameters = json.loads(json.dumps(configuration()))  # the file's aliases become parameters of their own
+        parameters = json.loads(json.dumps(configuration(more_processors=[ADAPTER])))  # the file's aliases become parameters of their own
         for name in MANOEUVRES:
             parameters[name + "_command_processor"]["free_space"]["time_budget"] = 60.0
         parameters["zone_cover_command_processor"]["coverage"]["time_budget"] = 60.0

@@ -18,7 +18,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..
 import document_tables as document  # noqa: E402  (of this package's sources)
 
 NAMESPACE = "/parameters_test"
-ADAPTER = "external_command/OldRoutingAdapter"
+ADAPTERS = ["external_command/OldRoutingAdapter", "external_command/MoveBaseAdapter"]
 NOT_SET = object()
 # What nodelet and the gateway read for themselves, and `~map_file`, by which a processor sees whether it is on its own.
 OTHERS = re.compile(r"^\w+$|^external_command/(num_worker_threads|start_failures/.*)$|^(?!external_command/)\w+/map_file$")
@@ -49,7 +49,7 @@ def documented():
 class ParametersTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.configured = configuration(more_processors=[ADAPTER])
+        cls.configured = configuration(more_processors=ADAPTERS)
         with ParameterSpy() as spy:
             with Component(NAMESPACE, cls.configured, {"ROS_MASTER_URI": spy.uri}) as gateway:
                 support.wait_until(lambda: "is ready" in gateway.output or not gateway.is_running, "it is ready")
