@@ -2,15 +2,18 @@
 #include "external_command/ros/dedicated_lane.h"
 
 #include <boost/make_shared.hpp>
+#include <chrono>
+#include <thread>
 #include <utility>
 
+#include "thread_crew.h"
 #include "thread_priority.h"
 
 namespace external_command {
 
 namespace {
 
-constexpr double kIdle = 1.0;  // a thread without work looks after its lane that often [s]
+constexpr std::chrono::milliseconds kBusy(1);  // after which a subscriber that runs already is tried again
 
 class Job : public ros::CallbackInterface {
  public:
@@ -31,21 +34,28 @@ void take(LanePriority priority) {
 
 }  // namespace
 
-struct DedicatedLane::Queues {
-  explicit Queues(const LaneOptions& options) : guarded(options.name, &queue, options.stamp) {}
+struct DedicatedLane::Queues : public ros::CallbackQueueInterface {
+  explicit Queues(const LaneOptions& options)
+      : crew({options.threads, [priority = options.priority] { take(priority); }, [this] { work(); }}),
+        guarded(options.name, this, options.stamp) {}
+
+  void addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t owner_id) override {
+    queue.addCallback(callback, owner_id);
+    crew.call();
+  }
+
+  void removeByID(std::uint64_t owner_id) override { queue.removeByID(owner_id); }
+
+  void work() {
+    while (queue.callOne() == ros::CallbackQueue::TryAgain) std::this_thread::sleep_for(kBusy);
+  }
 
   ros::CallbackQueue queue;
+  ThreadCrew crew;
   GuardedQueue guarded;
 };
 
-DedicatedLane::DedicatedLane(LaneOptions options) : queues_(std::make_shared<Queues>(options)) {
-  for (unsigned i = 0; i < options.threads; ++i) {
-    threads_.emplace_back([this, priority = options.priority] {
-      take(priority);
-      while (is_running_) queues_->queue.callOne(ros::WallDuration(kIdle));
-    });
-  }
-}
+DedicatedLane::DedicatedLane(LaneOptions options) : queues_(std::make_shared<Queues>(options)) {}
 
 DedicatedLane::~DedicatedLane() {
   stop();
@@ -59,10 +69,8 @@ void DedicatedLane::post(std::function<void()> job) {
 }
 
 void DedicatedLane::stop() {
-  is_running_ = false;
-  queues_->queue.disable();  // wakes the threads that wait
-  for (std::thread& thread : threads_) thread.join();
-  threads_.clear();
+  queues_->queue.disable();
+  queues_->crew.stop();
   queues_->queue.clear();
 }
 

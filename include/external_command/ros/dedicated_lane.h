@@ -3,12 +3,9 @@
 
 #include <ros/callback_queue.h>
 
-#include <atomic>
 #include <functional>
 #include <memory>
 #include <string>
-#include <thread>
-#include <vector>
 
 #include "external_command/ros/guarded_queue.h"
 
@@ -23,7 +20,7 @@ enum class LanePriority {
 
 struct LaneOptions {
   std::string name = "a lane";  ///< in log lines
-  unsigned threads = 1;
+  unsigned threads = 1;         ///< at most; made when they are needed
   LanePriority priority = LanePriority::kNormal;
   GuardedQueue::Stamp stamp = {};  ///< taken of each callback when it is added
 };
@@ -53,8 +50,6 @@ class DedicatedLane {
   struct Queues;
 
   const std::shared_ptr<Queues> queues_;
-  std::atomic<bool> is_running_{true};
-  std::vector<std::thread> threads_;
 };
 
 }  // namespace external_command
