@@ -1,17 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What scripts/soak runs: run_soak.py ROOT BUILD_DIR [--minutes N].
+"""What scripts/soak runs: run_soak.py ROOT BUILD_DIR [--commands N] [--minutes N].
 
 Sensible commands of every kind, with a vehicle whose pose is known and a planner that reports, in turns of which each
 is the same as the one before: what the gateway keeps after the first of them it has to give back after the others.
 """
 import argparse
+import os
 import statistics
 import sys
 import time
 
 from campaign import DemoError, Figures, Gateway, Periodic, memory_of
 
-WARM_UP = 10000  # calls
+WARM_UP = 10000  # commands
 MOST_GROWTH = 1.048576  # after the warm-up [MB]
 LATEST_ANSWER = 5.0  # [s]
 QUIET = 8.0  # after which the gateway has given back what it needs no more [s]
@@ -86,30 +87,42 @@ def commands():
     return planned + LIGHT_TURNS * light
 
 
-def soak(gateway, minutes, figures):
+class Memory:
+    """Of the gateway, in a quiet moment."""
+
+    def __init__(self, gateway):
+        time.sleep(QUIET)
+        self.resident = gateway.rss()
+        self.heap = memory_of(gateway.pid, "RssAnon")
+        self.threads = len(os.listdir("/proc/%d/task" % gateway.pid))
+
+
+def soak(gateway, most, minutes, figures):
     clients, turn = Clients(), commands()
     end = time.monotonic() + 60.0 * minutes
-    settled = None
-    ids_without_end = 0
-    while time.monotonic() < end:
+    warm, sent_warm = None, 0
+    sent = ids_without_end = 0
+    while sent < most and time.monotonic() < end:
         for service, command in turn:
             status = clients.call(service, command)
             if clients.status(status.command_id).status == 4:
                 ids_without_end += 1
-        if settled is None and len(clients.durations) > WARM_UP:
-            time.sleep(QUIET)
-            settled = (len(clients.durations), gateway.rss(), memory_of(gateway.pid, "RssAnon"))
-    time.sleep(QUIET)
-    if settled is None or len(clients.durations) < 2 * WARM_UP:
-        raise DemoError("%g minutes are too few: %d calls, of which the first %d are the warm-up, say nothing" %
-                        (minutes, len(clients.durations), WARM_UP))
-    figures.show("calls", len(clients.durations))
-    figures.show("of them after the warm-up", len(clients.durations) - settled[0])
+        sent += len(turn)
+        if warm is None and sent >= WARM_UP:
+            warm, sent_warm = Memory(gateway), sent
+    if warm is None or sent < 2 * WARM_UP:
+        raise DemoError("%d commands are too few: the first %d are the warm-up; give more, or more time" %
+                        (sent, WARM_UP))
+    last = Memory(gateway)
+    figures.show("commands", sent)
+    figures.show("of them after the warm-up", sent - sent_warm)
     figures.show("answer, median", 1e3 * statistics.median(clients.durations), "ms")
     figures.show("answer, slowest", max(clients.durations), "s", LATEST_ANSWER)
     figures.show("commands whose status was not known", ids_without_end, "", 0)
-    figures.show("memory after the warm-up", settled[1], "MB")
-    figures.show("growth of the heap since then", memory_of(gateway.pid, "RssAnon") - settled[2], "MB", MOST_GROWTH)
+    figures.show("threads", last.threads)
+    figures.show("memory after the warm-up", warm.resident, "MB")
+    figures.show("growth since then", last.resident - warm.resident, "MB", MOST_GROWTH)
+    figures.show("of it, of the heap", last.heap - warm.heap, "MB", MOST_GROWTH)
     if not gateway.is_alive():
         figures.fault("another gateway answers than at the beginning, or none")
 
@@ -118,13 +131,14 @@ def main(words):
     parser = argparse.ArgumentParser(prog="scripts/soak")
     parser.add_argument("root")
     parser.add_argument("build_dir")
-    parser.add_argument("--minutes", type=float, default=10.0)
+    parser.add_argument("--commands", type=int, default=110000)
+    parser.add_argument("--minutes", type=float, default=1e6)
     args = parser.parse_args(words)
     figures = Figures()
     try:
         with Gateway(args.root, args.build_dir) as gateway, Vehicle():
             time.sleep(1.0)
-            soak(gateway, args.minutes, figures)
+            soak(gateway, args.commands, args.minutes, figures)
     except DemoError as error:
         figures.fault(error)
     return figures.exit_code()

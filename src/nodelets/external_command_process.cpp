@@ -8,6 +8,7 @@
 #include "external_command/core/text.h"
 #include "external_command/ros/command_processor.h"
 #include "external_command/ros/name_twin.h"
+#include "freed_memory.h"
 #include "process_end.h"
 #include "start_failures.h"
 
@@ -43,6 +44,7 @@ int giveUp(const std::string& reason, ec::StartFailures* failures) {
 
 /// The component as a node of its own. It takes nodelets as a manager does; with --manager it is nothing but that.
 int main(int argc, char** argv) {
+  ec::giveBackFreedMemory();
   // A log in a file or a pipe tells at once too, and what was told before a kill is not lost.
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   ros::init(argc, argv, "external_command", ros::init_options::NoSigintHandler);
