@@ -32,6 +32,8 @@ LabelSearch::LabelSearch(const LaneGraph& graph, const RouteIndex* index, const 
   if (index != nullptr) distances_.emplace(graph, *index);
 }
 
+LabelSearch::~LabelSearch() { work_.giveBack(); }
+
 void LabelSearch::beginLeg(const std::vector<LanePoint>& targets) {
   ++work_.leg;
   work_.queue.clear();

@@ -26,7 +26,7 @@ struct SearchWorkspace;
 /// drives on from it arrives no later: more than one can be needed per lane, as a place behind a goal does not replace
 /// one before it.
 ///
-/// One at a time per thread: the memory is kept from one search to the next. The arguments must outlive the search.
+/// One at a time per thread: the memory of a small search is kept for the next. The arguments must outlive the search.
 class LabelSearch {
  public:
   /// How far a leg goes.
@@ -38,6 +38,9 @@ class LabelSearch {
   /// @param index  nullptr: there is none.
   LabelSearch(const LaneGraph& graph, const RouteIndex* index, const RouterParams& params, ChangeRule rule,
               const BlockedLanes& blocked, const CancelToken& cancel);
+  ~LabelSearch();
+  LabelSearch(const LabelSearch&) = delete;
+  LabelSearch& operator=(const LabelSearch&) = delete;
 
   void beginLeg(const std::vector<LanePoint>& targets);
   void addStart(const LanePoint& start, std::int32_t candidate);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "search_label.h"
@@ -31,6 +32,13 @@ struct SearchWorkspace {
     std::int32_t first_label = -1;
     std::int32_t first_target = -1;
   };
+
+  /// What a large search took goes back; of small ones it is kept.
+  void giveBack() {
+    constexpr std::size_t kKept = 50'000;  // labels, of 100 bytes or so
+    if (labels.capacity() > kKept) std::vector<SearchLabel>().swap(labels);
+    if (queue.capacity() > kKept) std::vector<QueueEntry>().swap(queue);
+  }
 
   LaneSlot& slotOf(LaneIndex lane) {
     LaneSlot& slot = lanes[lane];
