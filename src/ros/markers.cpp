@@ -17,18 +17,25 @@ constexpr double kRouteArrow = 6.0;      // seen from high above [m]
 constexpr double kManoeuvreArrow = 2.0;  // smaller than the footprint it stands in [m]
 constexpr double kFootprintStep = 1.0;   // between two footprints drawn [m]
 constexpr int kRingCorners = 48;
+constexpr double kStraightEnough = 0.01;  // a path is drawn straight where it turns by less [rad] ...
+constexpr double kLongestLine = 10.0;     // ... and no longer than this [m]: then it is a few centimetres off
 
 std::vector<Point2d> outline(const VehicleParams& vehicle, const Pose2d& pose) {
   const auto corners = footprintAt(vehicle, pose, 0.0);
   return {corners.begin(), corners.end()};
 }
 
+/// A line that is drawn straight from one point of a path to another hides nothing.
+bool isStraight(const ReferencePoint& from, const ReferencePoint& to) {
+  return std::abs(angleBetween(from.heading, to.heading)) < kStraightEnough && to.s - from.s < kLongestLine;
+}
+
 void addPath(const Path& path, Marker* lines) {
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    lines->points.push_back(raised(path[i - 1].pose().position(), kPathHeight));
-    lines->points.push_back(raised(path[i].pose().position(), kPathHeight));
-    lines->colors.resize(lines->points.size(),
-                         path[i].direction == Direction::kForward ? paint::kForward : paint::kReverse);
+  for (std::size_t from = 0, to = 1; to < path.size(); from = to++) {
+    const Direction direction = path[to].direction;
+    while (to + 1 < path.size() && path[to + 1].direction == direction && isStraight(path[from], path[to + 1])) ++to;
+    addLine({path[from].pose().position(), path[to].pose().position()}, kPathHeight, lines);
+    lines->colors.resize(lines->points.size(), direction == Direction::kForward ? paint::kForward : paint::kReverse);
   }
 }
 
