@@ -44,24 +44,27 @@ class Figures:
 
 class Gateway:
     """The component, with a ROS master of its own. Its parameters are those of config/external_command.yaml, with
-    `changes`: {nodelet: {key: value}}.
+    `changes`: {nodelet: {key: value}}. `log_dir`: of ROS, and of what all processes print. `parameters`: {name: value}
+    of the ROS master, set before the component starts.
 
         with Gateway(root, build_dir, {"zone_cover_command_processor": {"obstacle_grid_name": "grid"}}) as gateway:
             gateway.rss()
     """
 
-    def __init__(self, root, build_dir, changes=None, respawn=False):
+    def __init__(self, root, build_dir, changes=None, respawn=False, log_dir=None, parameters=None):
         self._root = root
         self._changes = changes or {}
         self._respawn = respawn
+        self._parameters = parameters or {}
         self._folder = tempfile.TemporaryDirectory()
         self.folder = self._folder.name
-        self.stack = Stack(build_dir)
+        self.stack = Stack(build_dir, log_dir)
         self.pid = None
 
     def __enter__(self):
         try:
             self.start_master("master")
+            self._set_parameters()
             self.stack.launch("external_command_process.launch", ns=NAMESPACE, config=self._config(),
                               map=os.path.join(self._root, "maps", "demo_town", "base_map.bin"),
                               respawn=str(self._respawn).lower())
@@ -76,6 +79,12 @@ class Gateway:
     def __exit__(self, *_):
         self.stack.end()
         self._folder.cleanup()
+
+    def _set_parameters(self):
+        import rosgraph
+        master = rosgraph.Master("/campaign")
+        for name, value in self._parameters.items():
+            master.setParam(name, value)
 
     def _config(self):
         with open(os.path.join(self._root, "config", "external_command.yaml"), encoding="utf-8") as file:

@@ -13,11 +13,11 @@ class DemoError(Exception):
 
 
 class Stack:
-    """Processes that end together. Their output goes to files in `log_dir`."""
+    """Processes that end together. Their output goes to files in `log_dir`, by default in the build folder."""
 
-    def __init__(self, build_dir):
+    def __init__(self, build_dir, log_dir=None):
         self.mark = owned_processes.new_mark()
-        self.log_dir = os.path.join(build_dir, "demo_logs")
+        self.log_dir = log_dir or os.path.join(build_dir, "demo_logs")
         self.master_uri = f"http://localhost:{free_port()}"
         self._processes = {}  # name -> Popen
         os.makedirs(self.log_dir, exist_ok=True)

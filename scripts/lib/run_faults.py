@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """What scripts/faults runs: run_faults.py ROOT BUILD_DIR [NAME...]. A gateway of its own for each fault."""
+import contextlib
+import errno
+import glob
 import os
 import signal
 import socket
 import struct
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 
-from campaign import DemoError, Figures, Gateway, NAMESPACE
+from campaign import DemoError, Figures, Gateway, NAMESPACE, Periodic
 from run_soak import QUIET, Vehicle
 
 LATEST_ANSWER = 5.0  # [s]
@@ -134,17 +138,110 @@ def connections_are_many(gateway, figures):
     figures.show("%d connections closed: STOP" % CONNECTIONS, stop(gateway), "s", STOP_LIMIT)
 
 
+class Clock(Periodic):
+    """Simulated time, which goes on from `now` [s] unless it `stands`."""
+    STEP = 0.02  # [s]
+
+    def __init__(self, now):
+        import rospy
+        from rosgraph_msgs.msg import Clock as Message
+        super().__init__(self.STEP, self._tick)
+        self.now = now
+        self.stands = False
+        self._message = Message
+        self._publisher = rospy.Publisher("/clock", Message, queue_size=1)
+
+    def _tick(self):
+        import rospy
+        self._publisher.publish(self._message(rospy.Time.from_sec(self.now)))
+        if not self.stands:
+            self.now += self.STEP
+
+
+def clock_jumps(gateway, figures):
+    """Simulated time jumps while the vehicle drives, and stands still."""
+    def drives():
+        return lane_follow(gateway).status == 1
+
+    with Clock(1000.0) as clock, Vehicle():
+        figures.show("simulated time: lane_follow", seconds_until(drives), "s", 15.0)
+        for name, now in (("ahead by a day", 87400.0), ("back by a day", 1000.0), ("back to 0", 0.0),
+                          ("ahead to 2106", 4294967000.0), ("back by all of that", 100.0)):
+            clock.now = now
+            figures.show("clock jumps %s: STOP" % name, stop(gateway), "s", STOP_LIMIT)
+            figures.show("clock jumps %s: lane_follow again after" % name, seconds_until(drives), "s", 15.0)
+        clock.stands = True
+        time.sleep(3.0)
+        figures.show("clock stands: STOP", stop(gateway), "s", STOP_LIMIT)
+        figures.show("clock stands: lane_follow", seconds_until(drives), "s", 15.0)
+
+
+class SmallDisk:
+    """A file system of half a megabyte, where this user may mount one; else `is_real` is False, and `path` a file."""
+
+    def __init__(self):
+        self._folder = tempfile.TemporaryDirectory()
+        self.path = os.path.join(self._folder.name, "disk")
+        self._filler = os.path.join(self.path, "filler")
+        self.is_real = False
+
+    def __enter__(self):
+        os.mkdir(self.path)
+        try:
+            self.is_real = subprocess.call(["mount", "-t", "tmpfs", "-o", "size=512k", "tmpfs", self.path],
+                                           stderr=subprocess.DEVNULL) == 0
+        except OSError:
+            pass  # there is no mount
+        if not self.is_real:
+            os.rmdir(self.path)
+            with open(self.path, "wb"):
+                pass
+        return self
+
+    def __exit__(self, *_):
+        if self.is_real:
+            subprocess.call(["umount", "--lazy", self.path])
+        self._folder.cleanup()
+
+    def fill(self):
+        try:
+            with open(self._filler, "ab", buffering=0) as file:
+                while True:
+                    file.write(bytes(1024))
+        except OSError as error:
+            if error.errno not in (errno.ENOSPC, errno.ENOTDIR):
+                raise
+
+    def free(self):
+        os.remove(self._filler)
+
+
 def disk_is_full(gateway, figures):
-    """The folder of zone files can hold nothing: it is a file."""
+    """That of the zone files and of what is printed; or, where none can be mounted, the folder of zone files is a file."""
     import fuzz_bytes
+    disk = gateway.disk
+    name = "full disk" if disk.is_real else "no folder for zone files"
     command = fuzz_bytes.example("zone_cover")
     command.dry_run = False
+    disk.fill()
     with Vehicle():
         time.sleep(1.0)
         begin = time.monotonic()
+        response = gateway.call("zone_cover", command)
+        figures.show("%s: zone_cover" % name, time.monotonic() - begin, "s", LATEST_ANSWER)
+        figures.show("%s: zone_cover does not tell of it" % name,
+                     int(not any("is not kept" in warning for warning in response.report.warnings)), "", 0)
+        begin = time.monotonic()
+        for _ in range(100):
+            lane_follow(gateway)
+        figures.show("%s: 100 x lane_follow" % name, time.monotonic() - begin, "s", 100 * LATEST_ANSWER)
+        figures.show("%s: STOP" % name, stop(gateway), "s", STOP_LIMIT)
+        if not disk.is_real:
+            return
+        disk.free()
         gateway.call("zone_cover", command)
-        figures.show("no folder for zone files: zone_cover", time.monotonic() - begin, "s", LATEST_ANSWER)
-    figures.show("no folder for zone files: STOP", stop(gateway), "s", STOP_LIMIT)
+        written = seconds_until(lambda: glob.glob(os.path.join(disk.path, "*.zone")))
+        figures.show("full disk: the zone is kept once there is room, after", written, "s", 15.0)
 
 
 def name_is_taken(gateway, figures):
@@ -233,27 +330,35 @@ def master_is_new(gateway, figures):
     figures.show("new ROS master: STOP answers again after", took, "s", 15.0)
 
 
-FAULTS = [(planner_is_silent, {}), (chassis_is_silent, {}), (transforms_jump, {}), (calls_are_cut, {}),
-          (connections_are_many, {}),
-          (disk_is_full, {"zone_cover_command_processor": {"progress_folder": "{folder}/config.yaml"}}),
-          (name_is_taken, {}), (nodelet_is_unloaded, {}), (process_is_killed, {}), (master_is_new, {})]
+FAULTS = [planner_is_silent, chassis_is_silent, transforms_jump, clock_jumps, calls_are_cut, connections_are_many,
+          disk_is_full, name_is_taken, nodelet_is_unloaded, process_is_killed, master_is_new]
 
 
 def main(root, build_dir, *names):
-    chosen = [item for item in FAULTS if not names or any(name in item[0].__name__ for name in names)]
+    chosen = [fault for fault in FAULTS if not names or any(name in fault.__name__ for name in names)]
     if len(chosen) == 1:
-        return run(root, build_dir, *chosen[0])
+        return run(root, build_dir, chosen[0])
     # rospy cannot change its master: a process for each.
-    codes = [subprocess.call([sys.executable, __file__, root, build_dir, fault.__name__]) for fault, _ in chosen]
+    codes = [subprocess.call([sys.executable, __file__, root, build_dir, fault.__name__]) for fault in chosen]
     print("%d of %d faults beyond a limit" % (sum(code != 0 for code in codes), len(codes)))
     return int(any(codes))
 
 
-def run(root, build_dir, fault, changes):
+def run(root, build_dir, fault):
     figures = Figures()
     try:
-        with Gateway(root, build_dir, changes, respawn=fault is process_is_killed) as gateway:
-            fault(gateway, figures)
+        with SmallDisk() if fault is disk_is_full else contextlib.nullcontext() as disk:
+            options = {}
+            if fault is process_is_killed:
+                options["respawn"] = True
+            if fault is clock_jumps:
+                options["parameters"] = {"/use_sim_time": True}
+            if fault is disk_is_full:
+                options["changes"] = {"zone_cover_command_processor": {"progress_folder": disk.path}}
+                options["log_dir"] = disk.path if disk.is_real else None
+            with Gateway(root, build_dir, **options) as gateway:
+                gateway.disk = disk
+                fault(gateway, figures)
     except (DemoError, OSError) as error:
         figures.fault("%s: %s" % (fault.__name__, error))
     return int(figures.faults > 0)
