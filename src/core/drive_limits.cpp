@@ -62,12 +62,13 @@ void DriveLimits::requireGoal(const Point2d& vehicle, const Point2d& goal) const
                             "; the limit is ", metres(max_goal_distance), " (~limits/max_goal_distance)"));
 }
 
-void DriveLimits::requireInside(const Path& path, const VehicleParams& vehicle) const {
+void DriveLimits::requireInside(const Path& path, const VehicleParams& vehicle, const CancelToken& cancel) const {
   if (!geofence) return;
   const double reach = reachOf(vehicle);
   double inside_up_to = -1.0;  // along the path [m]: far from the border there is nothing to look at for a while
   for (const ReferencePoint& point : path) {
     if (point.s < inside_up_to) continue;
+    cancel.throwIfCancelled();
     if (!isInside(footprintAt(vehicle, point.pose(), 0.0), *geofence)) {
       throw InvalidRequest(text("the path leaves the geofence at ", at(point.pose().position()), ", ", metres(point.s),
                                 " from its beginning (~limits/geofence)"));

@@ -14,10 +14,9 @@ namespace external_command {
 
 namespace {
 
-constexpr double kMinEdge = 1e-3;               // [m]
-constexpr double kTouching = 1e-6;              // [m]
-constexpr double kMinArea = 1e-4;               // [m^2]
-constexpr std::size_t kMostPairs = 20'000'000;  // of edges that are compared; a tenth of a second
+constexpr double kMinEdge = 1e-3;   // [m]
+constexpr double kTouching = 1e-6;  // [m]
+constexpr double kMinArea = 1e-4;   // [m^2]
 
 double signedArea(const std::vector<Point2d>& points) {
   double twice = 0.0;  // relative to the first point: UTM coordinates would eat the digits
@@ -47,7 +46,7 @@ bool edgesMeet(const std::vector<Point2d>& points, std::size_t i, std::size_t j)
 /// shorter in and compares those that overlap there: O(n log n) unless most of them do.
 /// @throws InvalidRequest  too many do.
 std::optional<std::pair<std::size_t, std::size_t>> meetingEdges(const std::vector<Point2d>& points,
-                                                                const std::string& name) {
+                                                                const std::string& name, const PolygonLimit& limit) {
   const std::size_t n = points.size();
   Point2d extent = Point2d::Zero();
   for (std::size_t i = 0; i < n; ++i) extent += (points[(i + 1) % n] - points[i]).cwiseAbs();
@@ -62,9 +61,10 @@ std::optional<std::pair<std::size_t, std::size_t>> meetingEdges(const std::vecto
     const auto isBehind = [&](std::size_t other) { return high(other) + kTouching < low(edge); };
     open.erase(std::remove_if(open.begin(), open.end(), isBehind), open.end());
     pairs += open.size();
-    if (pairs > kMostPairs) {
-      throw InvalidRequest(text(name, " is too intricate: of its ", n, " edges more than ", kMostPairs,
-                                " pairs lie side by side; give fewer vertices"));
+    if (pairs > limit.max_edge_pairs) {
+      const std::string parameter = limit.parameter != nullptr ? text(" (", limit.parameter, ")") : "";
+      throw InvalidRequest(text(name, " is too intricate: of its ", n, " edges more than ", limit.max_edge_pairs,
+                                " pairs lie side by side", parameter, "; give fewer vertices"));
     }
     for (const std::size_t other : open) {
       if (edgesMeet(points, edge, other)) return std::minmax(edge, other);
@@ -74,8 +74,8 @@ std::optional<std::pair<std::size_t, std::size_t>> meetingEdges(const std::vecto
   return std::nullopt;
 }
 
-void requireSimple(const std::vector<Point2d>& points, const std::string& name) {
-  const auto edges = meetingEdges(points, name);
+void requireSimple(const std::vector<Point2d>& points, const std::string& name, const PolygonLimit& limit) {
+  const auto edges = meetingEdges(points, name, limit);
   if (!edges) return;
   throw InvalidRequest(text(name, " crosses or touches itself: the edge from vertex ", edges->first, " ",
                             at(points[edges->first]), " meets the edge from vertex ", edges->second, " ",
@@ -93,7 +93,7 @@ BoundingBox boxOf(const std::vector<Point2d>& points) {
 
 }  // namespace
 
-Polygon::Polygon(const std::vector<Point2d>& points, const std::string& name) {
+Polygon::Polygon(const std::vector<Point2d>& points, const std::string& name, const PolygonLimit& limit) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite()) throw InvalidRequest(text(name, " vertex ", i, " is not finite"));
     if (!isPlausible(points[i])) {
@@ -108,9 +108,16 @@ Polygon::Polygon(const std::vector<Point2d>& points, const std::string& name) {
   const double area = signedArea(points_);
   if (area < 0.0) std::reverse(points_.begin(), points_.end());
   area_ = std::abs(area);
-  requireSimple(points_, name);
+  requireSimple(points_, name, limit);
   if (area_ < kMinArea) throw InvalidRequest(text(name, " has no area: ", area_, " m^2 inside its vertices"));
   box_ = boxOf(points_);
+}
+
+Polygon Polygon::movedBy(const Point2d& offset) const {
+  Polygon moved = *this;
+  for (Point2d& point : moved.points_) point += offset;
+  moved.box_ = boxOf(moved.points_);
+  return moved;
 }
 
 bool Polygon::contains(const Point2d& point) const {

@@ -18,6 +18,7 @@ constexpr double kMaxBulge = 0.25;             // of the curve beside the straig
 constexpr double kMaxSmoothTurn = 0.6;         // of the curve against that line, at either end [rad]
 constexpr double kMaxHeadingError = M_PI / 4;  // of a given heading against the line, there or back [rad]
 constexpr double kCurvatureTolerance = 1.02;   // of the sampled curvature
+constexpr std::size_t kPollInterval = 1000;    // points between two looks at the cancel token
 
 /// Directions of motion [rad] in which the path arrives at a point and leaves it; they differ at a corner.
 struct Tangents {
@@ -79,8 +80,8 @@ DistinctLine distinct(const WaypointLine& given) {
 /// Samples one path between two gear changes after the other.
 class PathSampler {
  public:
-  PathSampler(const DistinctLine& given, double spacing)
-      : line_(given.line), numbers_(given.number), spacing_(spacing) {}
+  PathSampler(const DistinctLine& given, double spacing, const CancelToken& cancel)
+      : line_(given.line), numbers_(given.number), spacing_(spacing), cancel_(cancel) {}
 
   /// The points from `first` to `last`, driven in one gear.
   void addLeg(std::size_t first, std::size_t last, Direction direction) {
@@ -160,6 +161,7 @@ class PathSampler {
   }
 
   void add(const Point2d& position, double motion, std::size_t waypoint, double corner) {
+    if (path_.size() % kPollInterval == 0) cancel_.throwIfCancelled();
     ReferencePoint point;
     point.x = position.x();
     point.y = position.y();
@@ -173,6 +175,7 @@ class PathSampler {
   const WaypointLine& line_;
   const std::vector<std::size_t>& numbers_;
   const double spacing_;
+  const CancelToken& cancel_;
   Direction direction_ = Direction::kForward;
   Path path_;
   std::vector<std::size_t> waypoints_;  ///< per path point: the nearest one
@@ -225,8 +228,8 @@ std::vector<Direction> gearsOf(const DistinctLine& given) {
 }
 
 WaypointPath sampled(const DistinctLine& given, const std::vector<Direction>& gears, const VehicleParams& vehicle,
-                     double spacing, double speed) {
-  PathSampler sampler(given, spacing);
+                     double spacing, double speed, const CancelToken& cancel) {
+  PathSampler sampler(given, spacing, cancel);
   for (std::size_t first = 0; first < gears.size();) {
     std::size_t last = first + 1;
     while (last < gears.size() && gears[last] == gears[first]) ++last;
@@ -237,7 +240,9 @@ WaypointPath sampled(const DistinctLine& given, const std::vector<Direction>& ge
   result.path = sampler.takePath();
   for (ReferencePoint& point : result.path) point.speed = speed;
   setArcLengths(&result.path);
+  cancel.throwIfCancelled();
   setCurvatures(&result.path);
+  cancel.throwIfCancelled();
   result.tight_bends = sampler.tightBends(result.path, vehicle.maxKappa());
   return result;
 }
@@ -262,7 +267,7 @@ void checkWaypoints(const WaypointLine& line, double spacing, const PathBounds& 
 }
 
 WaypointPath pathThrough(const WaypointLine& line, const VehicleParams& vehicle, double spacing, double target_speed,
-                         const PathBounds& bounds) {
+                         const PathBounds& bounds, const CancelToken& cancel) {
   DistinctLine given = distinct(line);
   requirePoints(given, line.points.size(), spacing, bounds);
   const std::vector<Direction> gears = gearsOf(given);
@@ -272,11 +277,11 @@ WaypointPath pathThrough(const WaypointLine& line, const VehicleParams& vehicle,
     return wished ? angleBetween(result.path.back().heading, *wished) : 0.0;
   };
   given.line.end_heading.reset();
-  WaypointPath result = sampled(given, gears, vehicle, spacing, speed);
+  WaypointPath result = sampled(given, gears, vehicle, spacing, speed, cancel);
   result.end_turn = remaining(result);
   if (std::abs(result.end_turn) < kSameHeading) return result;
   given.line.end_heading = wished;
-  WaypointPath turned = sampled(given, gears, vehicle, spacing, speed);
+  WaypointPath turned = sampled(given, gears, vehicle, spacing, speed, cancel);
   turned.end_turn = remaining(turned);
   const bool is_drivable = turned.tight_bends.size() <= result.tight_bends.size();
   return is_drivable && std::abs(turned.end_turn) < kSameHeading ? turned : result;

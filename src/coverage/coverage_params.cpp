@@ -26,6 +26,7 @@ void CoverageParams::validate() const {
   requireWithin("target_coverage", target_coverage, 0.5, 1.0);
   requireWithin("gear_change_cost", gear_change_cost, 0.0, 1e3);
   requireWithin("spacing", spacing, 0.05, 100.0);
+  requireWithin("max_grid_rows", static_cast<double>(max_grid_rows), 1, 1e7);
   requireWithin("time_budget", time_budget, 1e-3, 3600.0);
 }
 

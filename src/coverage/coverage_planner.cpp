@@ -199,6 +199,7 @@ class PathBuilder {
   }
 
   void measure() {
+    field_.cancel().throwIfCancelled();
     CoverageResult& result = *result_;
     result.free_area = swept_.area(kFree, 0);
     result.reachable_area = swept_.area(kGoal, 0);

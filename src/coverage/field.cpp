@@ -17,25 +17,18 @@ constexpr double kMaxCells = 2.5e6;      ///< of the grid; sets its finest cell
 constexpr double kCellsPerSwath = 12.0;  ///< across
 constexpr double kMaxExtent = 20e3;      ///< of the area [m]
 
-Polygon moved(const Polygon& polygon, const Point2d& origin, const std::string& name) {
-  std::vector<Point2d> points = polygon.points();
-  for (Point2d& point : points) point -= origin;
-  return Polygon(points, name);
-}
-
-Region regionOf(const CoverageArea& area, const Point2d& origin, const Checkpoint& checkpoint) {
+Region regionOf(const CoverageArea& area, const CoverageParams& params, const Point2d& origin,
+                const Checkpoint& checkpoint) {
   Region::Parts parts;
-  parts.drivable = moved(area.outer, origin, "the area");
-  for (std::size_t i = 0; i < area.holes.size(); ++i) {
-    checkpoint();
-    parts.non_drivable.push_back(moved(area.holes[i], origin, text("hole ", i)));
-  }
+  parts.limits = area.limits;
+  parts.drivable = area.outer.movedBy(-origin);
+  for (const Polygon& hole : area.holes) parts.non_drivable.push_back(hole.movedBy(-origin));
   if (area.grid) {
-    for (const Polygon& obstacle : gridObstacles(*area.grid, area.outer, checkpoint)) {
-      parts.non_drivable.push_back(moved(obstacle, origin, "an obstacle of the grid"));
+    for (const Polygon& obstacle : gridObstacles(*area.grid, area.outer, params.max_grid_rows, checkpoint)) {
+      parts.non_drivable.push_back(obstacle.movedBy(-origin));
     }
   }
-  return Region(parts);
+  return Region(std::move(parts));
 }
 
 Point2d originOf(const CoverageArea& area) {
@@ -66,9 +59,9 @@ Field::Field(const VehicleParams& vehicle, const CoverageParams& params, const C
       origin_(originOf(area)),
       reach_(
           std::hypot(std::max(vehicle.wheelbase + vehicle.front_overhang, vehicle.rear_overhang), vehicle.width / 2.0)),
-      region_(regionOf(area, origin_, checkpoint())),
-      checker_(vehicle, params.margin, region_),
-      bare_checker_(vehicle, 0.0, region_) {
+      region_(regionOf(area, params, origin_, checkpoint())),
+      checker_(vehicle, params.margin, region_, checkpoint()),
+      bare_checker_(vehicle, 0.0, region_, checkpoint()) {
   if (start) start_ = Pose2d{start->x - origin_.x(), start->y - origin_.y(), start->heading};
   setShapes(area);
   setGoal();
@@ -115,9 +108,10 @@ void Field::requireFreeStart(const CoverageArea& area) const {
     const bool is_hole = collision->index < area.holes.size();
     obstacle = "overlaps " + (is_hole ? collision->obstacle() : "an obstacle of the grid");
   }
-  const Region region({area.outer, area.holes, area.grid, std::nullopt});
+  const Region region({area.outer, area.holes, area.grid, std::nullopt, area.limits});
   throw StartBlocked(text("at the start ", at(given), " the footprint ", obstacle, " ", collision->extent(),
-                          unknownCellsHint(vehicle_, 0.0, region, given), "; move the vehicle into the free area"));
+                          unknownCellsHint(vehicle_, 0.0, region, given, checkpoint()),
+                          "; move the vehicle into the free area"));
 }
 
 void Field::setGoal() {

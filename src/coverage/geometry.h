@@ -6,9 +6,9 @@
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/polygon.hpp>
 #include <boost/geometry/geometries/ring.hpp>
-#include <functional>
 #include <vector>
 
+#include "external_command/core/cancel_token.h"
 #include "external_command/core/pose.h"
 
 namespace external_command {
@@ -23,9 +23,6 @@ using Ring = boost::geometry::model::ring<Point, false, true>;
 using Shape = boost::geometry::model::polygon<Point, false, true>;
 using Shapes = boost::geometry::model::multi_polygon<Shape>;
 }  // namespace shapes
-
-/// Called between the steps of what may take long; what it throws ends that.
-using Checkpoint = std::function<void()>;
 
 /// The points of a closed ring, the first not repeated.
 std::vector<Point2d> pointsOf(const shapes::Ring& ring);

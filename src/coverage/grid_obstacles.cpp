@@ -13,20 +13,20 @@ namespace external_command {
 
 namespace {
 
-constexpr double kFinest = 0.2;            ///< side of the blocks that cells are taken together to, at least [m]
-constexpr double kNear = 1.0;              ///< cells farther from the area's box are left out [m]
-constexpr double kHullShare = 1.3;         ///< of an obstacle's area that its convex hull may have and be taken for it
-constexpr double kSmall = 3.0;             ///< an obstacle up to this size is taken as its hull [m]
-constexpr std::size_t kMostRuns = 100000;  ///< rows of blocks side by side; bounds the memory
-constexpr double kRoom = 6.0;              ///< free room inside an obstacle that is smaller holds no vehicle [m^2]
+constexpr double kFinest = 0.2;     ///< side of the blocks that cells are taken together to, at least [m]
+constexpr double kNear = 1.0;       ///< cells farther from the area's box are left out [m]
+constexpr double kHullShare = 1.3;  ///< of an obstacle's area that its convex hull may have and be taken for it
+constexpr double kSmall = 3.0;      ///< an obstacle up to this size is taken as its hull [m]
+constexpr double kRoom = 6.0;       ///< free room inside an obstacle that is smaller holds no vehicle [m^2]
 
 using Block = std::pair<long, long>;  // row, column
 
 class Outliner {
  public:
-  Outliner(const OccupancyGrid& grid, const Polygon& within, const Checkpoint& checkpoint)
+  Outliner(const OccupancyGrid& grid, const Polygon& within, std::size_t max_rows, const Checkpoint& checkpoint)
       : grid_(grid),
         box_(within.box()),
+        max_rows_(max_rows),
         checkpoint_(checkpoint),
         cells_(std::max(1L, std::lround(kFinest / grid.resolution))) {}
 
@@ -53,10 +53,10 @@ class Outliner {
 
   bool isBlocked(int value) const { return value < 0 ? grid_.unknown_is_blocked : value >= grid_.blocked_from; }
 
-  static void requireFew(std::size_t runs) {
-    if (runs < kMostRuns) return;
-    throw InvalidRequest(text("the obstacle grid has more than ", kMostRuns, " rows of obstacles in the area; give a ",
-                              "smaller area, or a grid with less noise"));
+  void requireFew(std::size_t runs) const {
+    if (runs < max_rows_) return;
+    throw InvalidRequest(text("the obstacle grid has more than ", max_rows_, " rows of obstacles in the area ",
+                              "(~coverage/max_grid_rows); give a smaller area, or a grid with less noise"));
   }
 
   void findBlocks() {
@@ -135,6 +135,7 @@ class Outliner {
 
   const OccupancyGrid& grid_;
   const BoundingBox& box_;
+  const std::size_t max_rows_;
   const Checkpoint& checkpoint_;
   long cells_;                 ///< in a block, along each side
   std::vector<Block> blocks_;  ///< in order
@@ -142,11 +143,12 @@ class Outliner {
 
 }  // namespace
 
-std::vector<Polygon> gridObstacles(const OccupancyGrid& grid, const Polygon& within, const Checkpoint& checkpoint) {
+std::vector<Polygon> gridObstacles(const OccupancyGrid& grid, const Polygon& within, std::size_t max_rows,
+                                   const Checkpoint& checkpoint) {
   Region::Parts parts;
   parts.grid = grid;
   const Region checked(std::move(parts));  // refuses a grid whose size and cells do not agree
-  return Outliner(grid, within, checkpoint).outline();
+  return Outliner(grid, within, max_rows, checkpoint).outline();
 }
 
 }  // namespace external_command

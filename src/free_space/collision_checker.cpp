@@ -23,8 +23,8 @@ Point2d originOf(const Region& region) {
 }  // namespace
 
 struct CollisionChecker::Impl {
-  Impl(const VehicleParams& vehicle, double margin, const Region& given)
-      : region(given), origin(originOf(region)), index(vehicle, margin, region, origin) {}
+  Impl(const VehicleParams& vehicle, double margin, const Region& given, const Checkpoint& checkpoint)
+      : region(given), origin(originOf(region)), index(vehicle, margin, region, origin, checkpoint) {}
 
   Pose2d local(const Pose2d& pose) const { return {pose.x - origin.x(), pose.y - origin.y(), pose.heading}; }
 
@@ -33,12 +33,13 @@ struct CollisionChecker::Impl {
   FootprintIndex index;
 };
 
-CollisionChecker::CollisionChecker(const VehicleParams& vehicle, double margin, const Region& region) {
+CollisionChecker::CollisionChecker(const VehicleParams& vehicle, double margin, const Region& region,
+                                   const Checkpoint& checkpoint) {
   vehicle.validate();
   if (!(margin >= 0.0 && margin <= 5.0)) {
     throw InvalidParameter(text("margin is ", margin, " m; it must lie in [0, 5]"));
   }
-  impl_ = std::make_unique<const Impl>(vehicle, margin, region);
+  impl_ = std::make_unique<const Impl>(vehicle, margin, region, checkpoint);
 }
 
 CollisionChecker::~CollisionChecker() = default;
@@ -63,12 +64,13 @@ double CollisionChecker::minClearance(const Path& path, double limit) const {
   return smallest;
 }
 
-std::string unknownCellsHint(const VehicleParams& vehicle, double margin, const Region& region, const Pose2d& pose) {
+std::string unknownCellsHint(const VehicleParams& vehicle, double margin, const Region& region, const Pose2d& pose,
+                             const Checkpoint& checkpoint) {
   if (!region.grid() || !region.grid()->unknown_is_blocked) return "";
   OccupancyGrid grid = *region.grid();
   grid.unknown_is_blocked = false;
-  const Region known({region.drivable(), region.nonDrivable(), std::move(grid), region.axleBounds()});
-  if (!CollisionChecker(vehicle, margin, known).isFree(pose)) return "";
+  const Region known({region.drivable(), region.nonDrivable(), std::move(grid), region.axleBounds(), region.limits()});
+  if (!CollisionChecker(vehicle, margin, known, checkpoint).isFree(pose)) return "";
   return ", where cells of the obstacle grid are unknown, which counts as blocked (~grid_unknown_is_blocked)";
 }
 

@@ -14,9 +14,9 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kCellSize = 0.5;  ///< [m]
 constexpr double kMaxCells = 500'000.0;
-constexpr std::size_t kMaxListed = 32'000'000;  ///< pairs of cell and edge; bounds the memory
-constexpr std::uint32_t kEdgesAtOnce = 256;     ///< between two checkpoints
-constexpr std::size_t kPairsAtOnce = 1 << 20;   ///< between two checkpoints
+constexpr std::uint32_t kEdgesAtOnce = 4;      ///< between two checkpoints: an edge may lie in all cells
+constexpr long kRowsAtOnce = 16;               ///< between two checkpoints
+constexpr std::size_t kPairsAtOnce = 1 << 18;  ///< between two checkpoints
 constexpr double kFineStep = 2e-3;  ///< most that a corner moves between two checks where there is no room [m]
 
 BoundingBox emptyBox() { return {Point2d(kInfinity, kInfinity), Point2d(-kInfinity, -kInfinity)}; }
@@ -83,11 +83,8 @@ long FootprintIndex::cellAt(double x, double y) const {
 void FootprintIndex::fillStates(const Checkpoint& checkpoint) {
   states_.assign(static_cast<std::size_t>(columns_ * rows_), State::kFree);
   const Region& region = obstacles_.region();
-  if (region.drivable()) fillPolygon(*region.drivable(), false);
-  for (const Polygon& polygon : region.nonDrivable()) {
-    checkpoint();
-    fillPolygon(polygon, true);
-  }
+  if (region.drivable()) fillPolygon(*region.drivable(), false, checkpoint);
+  for (const Polygon& polygon : region.nonDrivable()) fillPolygon(polygon, true, checkpoint);
   if (!region.grid()) return;
   for (long row = 0; row < rows_; ++row) {
     checkpoint();
@@ -99,10 +96,11 @@ void FootprintIndex::fillStates(const Checkpoint& checkpoint) {
 }
 
 /// Marks the cells whose centre lies inside (or outside) the polygon, row by row (even-odd rule).
-void FootprintIndex::fillPolygon(const Polygon& polygon, bool inside) {
+void FootprintIndex::fillPolygon(const Polygon& polygon, bool inside, const Checkpoint& checkpoint) {
   const std::vector<Point2d>& points = polygon.points();
   std::vector<double> crossings;
   for (long row = 0; row < rows_; ++row) {
+    if (row % kRowsAtOnce == 0) checkpoint();
     const double y = cellCentre(0, row).y() + obstacles_.origin().y();
     if (inside && (y < polygon.box().min.y() || y > polygon.box().max.y())) continue;
     crossings.clear();
@@ -125,13 +123,14 @@ void FootprintIndex::fillPolygon(const Polygon& polygon, bool inside) {
 void FootprintIndex::spreadEdges(const Checkpoint& checkpoint) {
   near_.assign(states_.size(), static_cast<float>(listReach()));
   std::vector<CellEdge> pairs;
+  const std::size_t most = obstacles_.region().limits().max_near_edges;
   for (std::uint32_t e = 0; e < edges_.size(); ++e) {
     if (e % kEdgesAtOnce == 0) checkpoint();
     spread(e, &pairs);
-    if (pairs.size() > kMaxListed) {
-      throw InvalidRequest(text("the region's obstacles have ", edges_.size(),
-                                " edges, too many in one place to keep in ",
-                                "memory; give a smaller region or a coarser grid"));
+    if (pairs.size() > most) {
+      throw InvalidRequest(text("the region's obstacles have ", edges_.size(), " edges, too many in one place: more ",
+                                "than ", most, " in sum over the cells near them (~free_space/max_near_edges); give a ",
+                                "smaller region or a coarser grid"));
     }
   }
   list(pairs, checkpoint);
@@ -169,7 +168,10 @@ void FootprintIndex::spread(std::uint32_t e, std::vector<CellEdge>* pairs) {
 /// The pairs by cell (counting sort).
 void FootprintIndex::list(const std::vector<CellEdge>& pairs, const Checkpoint& checkpoint) {
   starts_.assign(states_.size() + 1, 0);
-  for (const CellEdge& pair : pairs) ++starts_[pair.cell + 1];
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (i % kPairsAtOnce == 0) checkpoint();
+    ++starts_[pairs[i].cell + 1];
+  }
   for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
   listed_.resize(pairs.size());
   std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);

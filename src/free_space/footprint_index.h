@@ -52,10 +52,9 @@ struct FootprintBox {
 class FootprintIndex {
  public:
   /// @param checkpoint  called now and then while the index is made: a large region takes a second.
-  /// @throws InvalidRequest  the region has too many edges to be kept in memory.
-  FootprintIndex(
-      const VehicleParams& vehicle, double margin, const Region& region, const Point2d& origin,
-      const Checkpoint& checkpoint = [] {});
+  /// @throws InvalidRequest  the region has more edges than RegionLimits allow.
+  FootprintIndex(const VehicleParams& vehicle, double margin, const Region& region, const Point2d& origin,
+                 const Checkpoint& checkpoint);
 
   const LocalObstacles& obstacles() const { return obstacles_; }
   const FootprintBox& box() const { return box_; }
@@ -115,7 +114,7 @@ class FootprintIndex {
 
   void setExtent();
   void fillStates(const Checkpoint& checkpoint);
-  void fillPolygon(const Polygon& polygon, bool inside);
+  void fillPolygon(const Polygon& polygon, bool inside, const Checkpoint& checkpoint);
   void spreadEdges(const Checkpoint& checkpoint);
   void spread(std::uint32_t edge, std::vector<CellEdge>* pairs);
   void list(const std::vector<CellEdge>& pairs, const Checkpoint& checkpoint);

@@ -91,7 +91,9 @@ class Planning {
     const bool is_grid = collision.kind == Collision::Kind::kGrid;
     return text(what, " ", at(pose), is_border ? " sticks out of " : " overlaps ", collision.obstacle(), " ",
                 collision.extent(), " near ", at(collision.at), ", the margin of ", metres(params_.margin), " included",
-                is_grid ? unknownCellsHint(vehicle_, params_.margin, index_.obstacles().region(), pose) : "");
+                is_grid ? unknownCellsHint(vehicle_, params_.margin, index_.obstacles().region(), pose,
+                                           stop_.cancel().checkpoint())
+                        : "");
   }
 
   Pose2d local(const Pose2d& pose) const { return {pose.x - origin_.x(), pose.y - origin_.y(), pose.heading}; }

@@ -14,8 +14,6 @@ namespace external_command {
 
 namespace {
 
-constexpr std::size_t kMaxEdges = 2'000'000;  ///< bounds the memory
-
 /// The cells `[begin, end)` of one direction of a grid.
 struct CellRange {
   long begin;
@@ -78,9 +76,10 @@ LocalObstacles::LocalObstacles(const Region& region, const Point2d& origin, cons
 }
 
 void LocalObstacles::requireFewEdges() const {
-  if (edges_.size() <= kMaxEdges) return;
-  throw InvalidRequest(text("the borders of the region's obstacles have more than ", kMaxEdges,
-                            " edges; give a smaller region or a coarser grid"));
+  const std::size_t most = region_->limits().max_edges;
+  if (edges_.size() <= most) return;
+  throw InvalidRequest(text("the borders of the region's obstacles have more than ", most,
+                            " edges (~free_space/max_edges); give a smaller region or a coarser grid"));
 }
 
 void LocalObstacles::addPolygon(const Polygon& polygon, int source) {

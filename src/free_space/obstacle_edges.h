@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 
+#include "external_command/core/cancel_token.h"
 #include "external_command/core/pose.h"
 #include "external_command/free_space/region.h"
 
 namespace external_command {
-
-/// Called every few milliseconds of a long piece of work; throws to end it.
-using Checkpoint = std::function<void()>;
 
 /// Who an edge belongs to: the index of a non-drivable polygon, or one of these.
 enum EdgeSource : int { kDrivableSource = -1, kGridSource = -2 };
@@ -26,7 +23,7 @@ struct ObstacleEdge {
 /// The region around a local origin, as filled shapes bordered by edges. Keeps a reference to `region`.
 class LocalObstacles {
  public:
-  /// @throws InvalidRequest  the borders have too many edges to be kept in memory.
+  /// @throws InvalidRequest  the borders have more edges than RegionLimits allow.
   LocalObstacles(const Region& region, const Point2d& origin, const Checkpoint& checkpoint);
 
   const std::vector<ObstacleEdge>& edges() const { return edges_; }

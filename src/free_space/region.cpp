@@ -20,7 +20,8 @@ void validate(const OccupancyGrid& grid) {
   if (!grid.origin.isFinite()) throw InvalidRequest("the grid's origin is not finite");
   const std::size_t wanted = static_cast<std::size_t>(grid.width) * grid.height;
   if (wanted == 0 || wanted > kMaxCells) {
-    throw InvalidRequest(text("the grid has ", grid.width, " x ", grid.height, " cells; it must have 1 to ", kMaxCells));
+    throw InvalidRequest(
+        text("the grid has ", grid.width, " x ", grid.height, " cells; it must have 1 to ", kMaxCells));
   }
   if (grid.cells.size() != wanted) {
     throw InvalidRequest(text("the grid holds ", grid.cells.size(), " values; its size of ", grid.width, " x ",
@@ -37,6 +38,15 @@ void validate(const BoundingBox& box) {
 }
 
 }  // namespace
+
+void RegionLimits::validate() const {
+  const auto require = [](const char* key, std::size_t value, std::size_t high) {
+    if (value >= 4 && value <= high) return;
+    throw InvalidParameter(text(key, " is ", value, "; it must lie in [4, ", high, "]"));
+  };
+  require("max_edges", max_edges, 100'000'000);
+  require("max_near_edges", max_near_edges, 1'000'000'000);
+}
 
 Region::Region(Parts parts) : parts_(std::move(parts)) {
   if (parts_.grid) validate(*parts_.grid);

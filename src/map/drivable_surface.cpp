@@ -78,8 +78,10 @@ std::optional<BoostMultiPolygon> unionOf(const BoostMultiPolygon& whole, const L
 }
 
 /// Adds the widened lane to `whole`.
-void add(const Lane& lane, double s, double radius, double extra, const Point2d& center, BoostMultiPolygon* whole) {
+void add(const Lane& lane, double s, double radius, double extra, const Point2d& center, const CancelToken& cancel,
+         BoostMultiPolygon* whole) {
   for (int i = 0; i < kNudges; ++i) {
+    cancel.throwIfCancelled();
     const double half_width = lane.widthAt(s) / 2.0 + extra + i * kNudge;
     auto joined = unionOf(*whole, lane, s, radius, half_width, center);
     if (!joined) continue;
@@ -103,16 +105,18 @@ const BoostPolygon& partWith(const Polygon& core, const BoostMultiPolygon& whole
 
 }  // namespace
 
-Surface drivableSurface(const HdMap& map, const Polygon& core, const Point2d& center, const SurfaceParams& params) {
+Surface drivableSurface(const HdMap& map, const Polygon& core, const Point2d& center, const SurfaceParams& params,
+                        const CancelToken& cancel) {
   BoostMultiPolygon whole;
   whole.push_back(toBoost(core.points(), center));
   LaneQuery query;
   query.max_distance = params.radius;
   for (const LaneMatch& near : map.lanesWithin(center, query)) {
     const Lane& lane = map.lane(near.lane);
-    add(lane, near.frenet.s, params.radius, kTouching, center, &whole);
+    add(lane, near.frenet.s, params.radius, kTouching, center, cancel, &whole);
     const bool is_close = near.frenet.distance < params.gap_radius;
-    if (is_close && params.gap > kTouching) add(lane, near.frenet.s, params.gap_radius, params.gap, center, &whole);
+    if (is_close && params.gap > kTouching)
+      add(lane, near.frenet.s, params.gap_radius, params.gap, center, cancel, &whole);
   }
   if (whole.empty()) throw InternalError("lanes and area have no common surface");
   const BoostPolygon& part = partWith(core, whole, center);

@@ -27,8 +27,12 @@ struct HdMap::Content {
 };
 
 void MapParams::validate() const {
-  if (max_link_gap >= 0.0 && max_link_gap <= 1000.0) return;  // false for NaN
-  throw InvalidParameter(text("max_link_gap is ", max_link_gap, "; it must lie in [0, 1000] m"));
+  const auto require = [](const char* key, double value, double low, double high) {
+    if (value >= low && value <= high) return;  // false for NaN
+    throw InvalidParameter(text(key, " is ", value, "; it must lie in [", low, ", ", high, "] m"));
+  };
+  require("max_link_gap", max_link_gap, 0.0, 1000.0);
+  require("max_segment_length", max_segment_length, 1.0, 1e6);
 }
 
 HdMap::HdMap(MapData data, const Point2d& origin, const MapParams& params)

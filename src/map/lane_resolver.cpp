@@ -16,11 +16,9 @@ namespace {
 constexpr double kLengthTolerance = 1.0;  // [m], and ...
 constexpr double kLengthShare = 0.02;     // ... this much of the length
 
-constexpr double kLongestSegment = 10000.0;  ///< of a centre line, between two points [m]
-
-/// The first point that lies too far from the one before it.
-const Point2d* findLeap(const std::vector<Point2d>& points) {
-  const auto is_leap = [](const Point2d& a, const Point2d& b) { return (b - a).norm() > kLongestSegment; };
+/// The first point that lies farther than `longest` [m] from the one before it.
+const Point2d* findLeap(const std::vector<Point2d>& points, double longest) {
+  const auto is_leap = [longest](const Point2d& a, const Point2d& b) { return (b - a).norm() > longest; };
   const auto found = std::adjacent_find(points.begin(), points.end(), is_leap);
   return found == points.end() ? nullptr : &*std::next(found);
 }
@@ -46,7 +44,7 @@ bool isUsable(double value) { return std::isfinite(value) && value >= 0.0; }
 /// Turns LaneData into Lane: first each lane by itself, then, once every id is known, the references.
 class LaneResolver {
  public:
-  LaneResolver(MapData* data, MapContent* map) : data_(*data), map_(*map) {}
+  LaneResolver(MapData* data, const MapParams& params, MapContent* map) : data_(*data), params_(params), map_(*map) {}
 
   void run() {
     // The look-up table refers to the ids of the lanes, which therefore must not move.
@@ -75,6 +73,7 @@ class LaneResolver {
   void addRoad(const RoadData& road);
 
   MapData& data_;
+  const MapParams& params_;
   MapContent& map_;
   bool has_heights_ = false;
   std::vector<const LaneData*> sources_;  // of each lane, for its references
@@ -131,11 +130,11 @@ bool LaneResolver::clean(LaneData* lane) {
                     point - lane->center.data(), " of the centre line is ", at(*point));
     return false;
   }
-  if (const Point2d* point = findLeap(lane->center)) {
+  if (const Point2d* point = findLeap(lane->center, params_.max_segment_length)) {
     map_.faults.add(MapFault::kLaneUnusable, {lane->id}, {*std::prev(point)}, lane->id, ": point ",
                     point - lane->center.data(), " of the centre line, ", at(*point), ", lies ",
                     metres((*point - *std::prev(point)).norm()), " from the one before it; the limit is ",
-                    metres(kLongestSegment));
+                    metres(params_.max_segment_length), " (~map/max_segment_length)");
     return false;
   }
   cleanBoundary(*lane, "left", &lane->left);
@@ -274,7 +273,7 @@ void LaneResolver::addRoad(const RoadData& road) {
 
 void resolveLanes(MapData* data, const MapParams& params, MapContent* map) {
   stretchPointLanes(data, &map->faults);
-  LaneResolver(data, map).run();
+  LaneResolver(data, params, map).run();
   mendNeighbours(map);
   addReverseLanes(params.max_link_gap, map);
   checkLinks(params.max_link_gap, map);

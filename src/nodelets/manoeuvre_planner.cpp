@@ -72,9 +72,17 @@ FreeSpaceParams readFreeSpaceParams(const ParameterReader& reader) {
   return params;
 }
 
+RegionLimits readRegionLimits(const ParameterReader& reader) {
+  RegionLimits limits;
+  reader.readSize("max_edges", 4, 100000000, &limits.max_edges);
+  reader.readSize("max_near_edges", 4, 1000000000, &limits.max_near_edges);
+  return limits;
+}
+
 ManoeuvrePlanner::ManoeuvrePlanner(ros::NodeHandle nh, const ParameterReader& reader, ProcessContext& context)
     : context_(context),
       params_(readFreeSpaceParams(reader.within("free_space"))),
+      region_limits_(readRegionLimits(reader.within("free_space"))),
       latest_grid_(std::make_shared<LatestGrid>()) {
   reader.readName("obstacle_grid_name", &grid_params_.topic);
   reader.readWithin("max_grid_age", 0.0, 86400.0, &grid_params_.max_age);
@@ -142,6 +150,7 @@ void ManoeuvrePlanner::requireFresh(ros::Time stamp) const {
 
 Region ManoeuvrePlanner::regionOf(Region::Parts parts) const {
   parts.grid = grid();
+  parts.limits = region_limits_;
   return Region(std::move(parts));
 }
 
@@ -158,16 +167,17 @@ FreeSpacePlan ManoeuvrePlanner::plan(const Pose2d& start, const std::vector<Pose
   try {
     return FreeSpacePlanner(context_.params().vehicle, params).plan(start, goals, region, cancel);
   } catch (const StartBlocked&) {
-    showConflicts({start}, region, scene);
+    showConflicts({start}, region, scene, cancel);
     throw;
   } catch (const GoalBlocked&) {
-    showConflicts(goals, region, scene);
+    showConflicts(goals, region, scene, cancel);
     throw;
   }
 }
 
-void ManoeuvrePlanner::showConflicts(const std::vector<Pose2d>& poses, const Region& region, CommandScene scene) const {
-  const CollisionChecker checker(context_.params().vehicle, params_.margin, region);
+void ManoeuvrePlanner::showConflicts(const std::vector<Pose2d>& poses, const Region& region, CommandScene scene,
+                                     const CancelToken& cancel) const {
+  const CollisionChecker checker(context_.params().vehicle, params_.margin, region, cancel.checkpoint());
   showRegion(region, &scene);
   for (const Pose2d& pose : poses) {
     const auto collision = checker.collisionAt(pose);

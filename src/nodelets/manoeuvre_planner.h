@@ -32,6 +32,7 @@ class ManoeuvrePlanner {
   ~ManoeuvrePlanner();
 
   const FreeSpaceParams& params() const { return params_; }
+  const RegionLimits& regionLimits() const { return region_limits_; }
 
   /// The live obstacle grid; nullopt where none is configured.
   /// @throws NotReady  it has not come, or is too old.
@@ -56,7 +57,9 @@ class ManoeuvrePlanner {
                        const Deadline& deadline, const CancelToken& cancel, const CommandScene& scene) const;
 
   /// Shows in rviz what stands in the way of `poses`, together with `scene`.
-  void showConflicts(const std::vector<Pose2d>& poses, const Region& region, CommandScene scene) const;
+  /// @throws Cancelled
+  void showConflicts(const std::vector<Pose2d>& poses, const Region& region, CommandScene scene,
+                     const CancelToken& cancel) const;
 
  private:
   struct LatestGrid;
@@ -70,6 +73,7 @@ class ManoeuvrePlanner {
 
   ProcessContext& context_;
   FreeSpaceParams params_;
+  RegionLimits region_limits_;
   ObstacleGridParams grid_params_;
   std::shared_ptr<LatestGrid> latest_grid_;
   ros::Subscriber grid_subscriber_;
@@ -77,6 +81,7 @@ class ManoeuvrePlanner {
 
 /// @throws InvalidParameter
 FreeSpaceParams readFreeSpaceParams(const ParameterReader& reader);
+RegionLimits readRegionLimits(const ParameterReader& reader);
 
 /// Adds a manoeuvre to the end of the plan's path, and what is to be told of it to the report.
 void appendManoeuvre(const FreeSpacePlan& manoeuvre, MotionPlan* plan);

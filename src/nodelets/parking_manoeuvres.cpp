@@ -84,9 +84,9 @@ void tellStart(const ProcessContext& context, const Pose2d& vehicle, const std::
 
 }  // namespace
 
-Region::Parts surfaceWith(const HdMap& map, const Polygon& core, const Pose2d& on_lane) {
+Region::Parts surfaceWith(const HdMap& map, const Polygon& core, const Pose2d& on_lane, const CancelToken& cancel) {
   const auto surface_at = [&](double gap) {
-    return drivableSurface(map, core, on_lane.position(), {kSurfaceRadius, gap, kGapRadius});
+    return drivableSurface(map, core, on_lane.position(), {kSurfaceRadius, gap, kGapRadius}, cancel);
   };
   const auto connects = [&](double gap) { return surface_at(gap).outer.contains(on_lane.position()); };
   const auto gap = std::find_if(std::begin(kGaps), std::prev(std::end(kGaps)), connects);
@@ -153,7 +153,7 @@ void leaveParkingPlace(const ProcessContext& context, const Pose2d& vehicle, con
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Deadline attempt = deadline.part(1.0 / static_cast<double>(places.size() - i));
     try {
-      const Region region = planner.regionOf(surfaceWith(map, places[i], plan->path.front().pose()));
+      const Region region = planner.regionOf(surfaceWith(map, places[i], plan->path.front().pose(), cancel));
       const Joints joints = jointsOf(plan->path);
       const FreeSpacePlan out = planner.plan(vehicle, joints.poses, region, attempt, cancel, plan->scene);
       const auto joint = static_cast<std::ptrdiff_t>(joints.indices[out.goal_index]);

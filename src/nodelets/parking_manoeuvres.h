@@ -9,7 +9,8 @@ namespace external_command {
 
 /// Where a vehicle may manoeuvre between `core` (a parking space or an area) and the lanes around it: both surfaces,
 /// the gap between them closed as far as needed for `on_lane` to be inside; the other parking spaces are obstacles.
-Region::Parts surfaceWith(const HdMap& map, const Polygon& core, const Pose2d& on_lane);
+/// @throws Cancelled
+Region::Parts surfaceWith(const HdMap& map, const Polygon& core, const Pose2d& on_lane, const CancelToken& cancel);
 
 /// Replaces the end of the plan's path by the cheapest way into one of `goals` from a place on it, found by `deadline`.
 /// @throws GoalBlocked, NoPath, PlanningTimeout, Cancelled

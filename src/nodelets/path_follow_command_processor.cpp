@@ -186,14 +186,14 @@ void PathFollowCommandProcessor::checkStart(const Point2d& start, std::vector<st
   if (vehicle) start_limits_.check("the path begins at", "start", start, vehicle->position(), warnings);
 }
 
-void PathFollowCommandProcessor::processSpecialCommand(const PathFollowCommand& command, const CancelToken& /*cancel*/,
+void PathFollowCommandProcessor::processSpecialCommand(const PathFollowCommand& command, const CancelToken& cancel,
                                                        MotionPlan* plan) {
   const ContextParams& params = context().params();
   const Pose2d frame = context().vehiclePose().ofFrame(command.header.frame_id);
   const WaypointLine line = toLine(command, frame);
   checkStart(line.points.front(), &plan->report.warnings);
-  WaypointPath result =
-      pathThrough(line, params.vehicle, params.reference_path.spacing, command.target_speed, params.path_bounds);
+  WaypointPath result = pathThrough(line, params.vehicle, params.reference_path.spacing, command.target_speed,
+                                    params.path_bounds, cancel);
   warnOfNarrowPath(command, params.vehicle.width, &plan->report.warnings);
   warnOfTightBends(result.tight_bends, params.vehicle.min_turning_radius, &plan->report.warnings);
   warnOfEndHeading(result, &plan->report.warnings);

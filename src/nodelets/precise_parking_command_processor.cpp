@@ -109,15 +109,15 @@ void PreciseParkingCommandProcessor::processSpecialCommand(const PreciseParkingC
   const Polygon& area = areaOf(command).polygon;
 
   const Pose2d entry = plan->path.empty() ? plan->start.pose() : plan->path.back().pose();
-  const Region region = planner_->regionOf(surfaceWith(map, area, entry));
+  const Region region = planner_->regionOf(surfaceWith(map, area, entry, cancel));
   const Path last = straightPath(before, straight_last_, into, planner_->params().spacing, vehicle);
-  const CollisionChecker checker(vehicle, planner_->params().margin, region);
+  const CollisionChecker checker(vehicle, planner_->params().margin, region, cancel.checkpoint());
   for (const ReferencePoint& point : last) {
     if (const auto collision = checker.collisionAt(point.pose())) {
-      throw GoalBlocked(text("the straight last ", metres(straight_last_), " (~straight_last) into parking_spot_pose ",
-                             at(spot), " runs into ", collision->obstacle(), " at ", at(collision->at), " ",
-                             collision->extent(),
-                             unknownCellsHint(vehicle, planner_->params().margin, region, point.pose())));
+      throw GoalBlocked(
+          text("the straight last ", metres(straight_last_), " (~straight_last) into parking_spot_pose ", at(spot),
+               " runs into ", collision->obstacle(), " at ", at(collision->at), " ", collision->extent(),
+               unknownCellsHint(vehicle, planner_->params().margin, region, point.pose(), cancel.checkpoint())));
     }
   }
   if (plan->path.empty()) {

@@ -205,25 +205,27 @@ void ValetParkingCommandProcessor::processSpecialCommand(const ValetParkingComma
   plan->command.parking_command.target_speed = std::min(command.target_speed, context().params().vehicle.max_speed);
 }
 
-std::vector<Pose2d> ValetParkingCommandProcessor::freePosesIn(const ParkingSpace& space, const MotionPlan& plan) const {
+std::vector<Pose2d> ValetParkingCommandProcessor::freePosesIn(const ParkingSpace& space, const MotionPlan& plan,
+                                                              const CancelToken& cancel) const {
   const HdMap& map = context().requireRouter().map();
   const ParkingSpot spot = spotIn(space);
   const Polygon place = spot.placeFor(spot.poses());
-  Region::Parts parts = surfaceWith(map, place, plan.path.back().pose());
+  Region::Parts parts = surfaceWith(map, place, plan.path.back().pose(), cancel);
   parts.drivable = surroundingsOf(place);
   const Region obstacles = planner_->regionOf(std::move(parts));
-  const CollisionChecker checker(context().params().vehicle, planner_->params().margin, obstacles);
+  const CollisionChecker checker(context().params().vehicle, planner_->params().margin, obstacles, cancel.checkpoint());
   std::vector<Pose2d> poses = spot.freePoses(checker);
   if (!poses.empty()) return poses;
-  planner_->showConflicts(spot.poses(), obstacles, plan.scene);
+  planner_->showConflicts(spot.poses(), obstacles, plan.scene, cancel);
   const auto collision = checker.collisionAt(spot.poses().front());
-  throw GoalBlocked(
-      text("the vehicle does not fit into parking space ", space.id, ": in its middle it overlaps ",
-           collision ? describe(*collision, map, obstacles) : "an obstacle", ", the margin of ",
-           metres(planner_->params().margin), " (~free_space/margin) included",
-           unknownCellsHint(context().params().vehicle, planner_->params().margin, obstacles, spot.poses().front()),
-           ", and nowhere within ", metres(params_.position_tolerance), " and ", radians(params_.heading_tolerance),
-           " of it is there room (~parking_position_tolerance, ~parking_heading_tolerance)"));
+  throw GoalBlocked(text("the vehicle does not fit into parking space ", space.id, ": in its middle it overlaps ",
+                         collision ? describe(*collision, map, obstacles) : "an obstacle", ", the margin of ",
+                         metres(planner_->params().margin), " (~free_space/margin) included",
+                         unknownCellsHint(context().params().vehicle, planner_->params().margin, obstacles,
+                                          spot.poses().front(), cancel.checkpoint()),
+                         ", and nowhere within ", metres(params_.position_tolerance), " and ",
+                         radians(params_.heading_tolerance),
+                         " of it is there room (~parking_position_tolerance, ~parking_heading_tolerance)"));
 }
 
 void ValetParkingCommandProcessor::park(const ValetParkingCommand& command, const Deadline& deadline,
@@ -234,8 +236,8 @@ void ValetParkingCommandProcessor::park(const ValetParkingCommand& command, cons
     leaveParkingPlace(context(), plan->start.pose(), *planner_, deadline.part(0.5), cancel, plan);
   }
   const ParkingSpot spot = spotIn(space);
-  const std::vector<Pose2d> goals = freePosesIn(space, *plan);
-  const Region region = planner_->regionOf(surfaceWith(map, spot.placeFor(goals), plan->path.back().pose()));
+  const std::vector<Pose2d> goals = freePosesIn(space, *plan, cancel);
+  const Region region = planner_->regionOf(surfaceWith(map, spot.placeFor(goals), plan->path.back().pose(), cancel));
   try {
     leaveRouteFor(goals, region, *planner_, deadline, cancel, plan);
   } catch (const GoalBlocked& error) {

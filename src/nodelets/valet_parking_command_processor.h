@@ -40,7 +40,7 @@ class ValetParkingCommandProcessor : public MotionCommandProcessor<ValetParking>
   bool parkFromOtherLane(const ValetParkingCommand& command, const std::string& why, const Deadline& deadline,
                          const CancelToken& cancel, MotionPlan* plan) const;
 
-  std::vector<Pose2d> freePosesIn(const ParkingSpace& space, const MotionPlan& plan) const;
+  std::vector<Pose2d> freePosesIn(const ParkingSpace& space, const MotionPlan& plan, const CancelToken& cancel) const;
 
   std::optional<ManoeuvrePlanner> planner_;
   ParkingParams params_;

@@ -38,6 +38,7 @@ CoverageParams readCoverageParams(const ParameterReader& reader) {
   reader.read("gear_change_cost", &params.gear_change_cost);
   reader.read("path_spacing", &params.spacing);
   reader.read("time_budget", &params.time_budget);
+  reader.readSize("max_grid_rows", 1, 10000000, &params.max_grid_rows);
   if (reader.has("swath_heading")) params.swath_heading = heading;
   if (objective != "shortest" && objective != "fewest_turns") {
     throw InvalidParameter(
@@ -130,14 +131,18 @@ const Area& ZoneCoverCommandProcessor::areaOf(const ZoneCoverCommand& command) c
                             map.areas().size(), " areas of the map", nearAreaIds(map, command.zone_cover_area_id)));
 }
 
-CoverageArea ZoneCoverCommandProcessor::zoneOf(const ZoneCoverCommand& command) const {
+CoverageArea ZoneCoverCommandProcessor::zoneOf(const ZoneCoverCommand& command, const CancelToken& cancel) const {
   const Pose2d frame = context().vehiclePose().ofFrame(command.header.frame_id);
   const bool by_area = !command.zone_cover_area_id.empty();
-  CoverageArea zone{by_area ? areaOf(command).polygon : toPolygon(command.drivable_roi, frame, "drivable_roi"), {}};
+  const PolygonLimit limit = context().params().requests.polygon();
+  CoverageArea zone{by_area ? areaOf(command).polygon : toPolygon(command.drivable_roi, frame, "drivable_roi", limit),
+                    {}};
   for (std::size_t i = 0; i < command.non_drivable_roi.size(); ++i) {
-    zone.holes.push_back(toPolygon(command.non_drivable_roi[i], frame, text("non_drivable_roi[", i, "]")));
+    cancel.throwIfCancelled();
+    zone.holes.push_back(toPolygon(command.non_drivable_roi[i], frame, text("non_drivable_roi[", i, "]"), limit));
   }
   zone.grid = planner_->grid();
+  zone.limits = planner_->regionLimits();
   return zone;
 }
 
@@ -175,8 +180,8 @@ void ZoneCoverCommandProcessor::enterZone(const ZoneCoverCommand& command, const
     leaveParkingPlace(context(), plan->start.pose(), *planner_, deadline.part(0.5), cancel, plan);
   }
   const Pose2d from = plan->path.back().pose();
-  const auto entries = zoneEntries(zone, context().params().vehicle, coverage_params_.margin, from);
-  Region::Parts parts = surfaceWith(map, zone.outer, from);
+  const auto entries = zoneEntries(zone, context().params().vehicle, coverage_params_.margin, from, cancel);
+  Region::Parts parts = surfaceWith(map, zone.outer, from, cancel);
   parts.non_drivable.insert(parts.non_drivable.end(), zone.holes.begin(), zone.holes.end());
   leaveRouteFor(entries, planner_->regionOf(std::move(parts)), *planner_, deadline, cancel, plan);
 }
@@ -218,7 +223,7 @@ void ZoneCoverCommandProcessor::appendCoverage(const CoverageResult& coverage, M
 
 void ZoneCoverCommandProcessor::processSpecialCommand(const ZoneCoverCommand& command, const CancelToken& cancel,
                                                       MotionPlan* plan) {
-  const CoverageArea zone = zoneOf(command);
+  const CoverageArea zone = zoneOf(command, cancel);
   const CoverageParams params = paramsFor(command);
   const Deadline deadline(params.time_budget);
   if (!plan->path.empty()) enterZone(command, zone, deadline, cancel, plan);

@@ -46,7 +46,7 @@ class ZoneCoverCommandProcessor : public MotionCommandProcessor<ZoneCover> {
   /// With the command's own swath width, where it has one. @throws InvalidRequest
   CoverageParams paramsFor(const ZoneCoverCommand& command) const;
   const Area& areaOf(const ZoneCoverCommand& command) const;
-  CoverageArea zoneOf(const ZoneCoverCommand& command) const;
+  CoverageArea zoneOf(const ZoneCoverCommand& command, const CancelToken& cancel) const;
   Pose2d givenStart(const ZoneCoverCommand& command, const PlanStart& start) const;
   bool isInside(const ZoneCoverCommand& command, const PlanStart& start) const;
   void enterZone(const ZoneCoverCommand& command, const CoverageArea& zone, const Deadline& deadline,

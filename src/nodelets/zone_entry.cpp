@@ -21,11 +21,12 @@ constexpr double kTurnWeight = 4.0;  // of a radian off `from`'s heading, as dis
 }  // namespace
 
 std::vector<Pose2d> zoneEntries(const CoverageArea& zone, const VehicleParams& vehicle, double margin,
-                                const Pose2d& from) {
+                                const Pose2d& from, const CancelToken& cancel) {
   Region::Parts parts;
   parts.drivable = zone.outer;
   parts.non_drivable = zone.holes;
-  const CollisionChecker checker(vehicle, margin, Region(std::move(parts)));
+  parts.limits = zone.limits;
+  const CollisionChecker checker(vehicle, margin, Region(std::move(parts)), cancel.checkpoint());
   std::vector<std::pair<double, Pose2d>> candidates;
   for (double x = -kRange; x <= kRange; x += kStep) {
     for (double y = -kRange; y <= kRange; y += kStep) {

@@ -29,8 +29,9 @@ std::shared_ptr<const Router> load(const std::string& file, const MapOrigin& ori
 std::string keyOf(const std::string& file, const MapOrigin& origin, const MapParams& map_params,
                   const RouterParams& params) {
   return text(file, "|", static_cast<int>(origin.kind), "|", origin.point.x(), "|", origin.point.y(), "|",
-              map_params.max_link_gap, "|", params.lane_change_price, "|", params.min_lane_change_length, "|",
-              params.tight_lane_change_price, "|", params.min_turning_radius, "|", params.stopping_error);
+              map_params.max_link_gap, "|", map_params.max_segment_length, "|", params.lane_change_price, "|",
+              params.min_lane_change_length, "|", params.tight_lane_change_price, "|", params.min_turning_radius, "|",
+              params.stopping_error);
 }
 
 }  // namespace

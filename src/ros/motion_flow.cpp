@@ -111,7 +111,8 @@ void MotionFlow::addRoute(const RoutingTask& task, double target_speed, const Ca
   reportRoute(map, *plan->route, &plan->report);
 }
 
-void MotionFlow::assemble(double target_speed, bool begins_at_vehicle, MotionPlan* plan) const {
+void MotionFlow::assemble(double target_speed, bool begins_at_vehicle, const CancelToken& cancel,
+                          MotionPlan* plan) const {
   if (plan->path.empty()) throw InternalError("the command was planned, but its path is empty");
   const Path& approach = plan->start.approach();
   if (begins_at_vehicle && !approach.empty()) {
@@ -125,7 +126,7 @@ void MotionFlow::assemble(double target_speed, bool begins_at_vehicle, MotionPla
   requireMotion(plan->path);
   const Pose2d from = plan->start.isKnown() ? plan->start.pose() : plan->path.front().pose();
   params.limits.requireGoal(from.position(), plan->path.back().pose().position());
-  params.limits.requireInside(plan->path, params.vehicle);
+  params.limits.requireInside(plan->path, params.vehicle, cancel);
   for (const double cap : {target_speed, params.limits.max_speed}) {
     if (cap <= 0.0) continue;
     for (ReferencePoint& point : plan->path) point.speed = std::min(point.speed, cap);

@@ -212,6 +212,7 @@ VehicleParams readVehicleParams(const ParameterReader& reader) {
 MapParams readMapParams(const ParameterReader& reader) {
   MapParams params;
   reader.read("max_link_gap", &params.max_link_gap);
+  reader.read("max_segment_length", &params.max_segment_length);
   reader.validate(params);
   return params;
 }
@@ -265,6 +266,7 @@ RequestLimits readRequestLimits(const ParameterReader& reader) {
   reader.readSize("max_black_list", 1, 1000000, &limits.max_black_list);
   reader.readSize("max_polygons", 1, 100000, &limits.max_polygons);
   reader.readSize("max_polygon_points", 3, 1000000, &limits.max_polygon_points);
+  reader.readSize("max_edge_pairs", 1000, 1000000000, &limits.max_edge_pairs);
   return limits;
 }
 

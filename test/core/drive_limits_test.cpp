@@ -90,5 +90,11 @@ TEST(DriveLimits, RefuseParametersBelowZero) {
   EXPECT_THROW(limits.validate(), InvalidParameter);
 }
 
+TEST(DriveLimits, LookAtNoMoreOfThePathOnceItIsCancelled) {
+  const CancelSource cancel;
+  cancel.cancel();
+  EXPECT_THROW(yard().requireInside(straight(30.0, 1.0, 96.0), VehicleParams(), cancel.token()), Cancelled);
+}
+
 }  // namespace
 }  // namespace external_command

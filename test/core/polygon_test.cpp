@@ -142,6 +142,27 @@ TEST(Polygon, RefusesOneTooIntricateToCheckInAMoment) {
   EXPECT_NE(refusal(slantingComb(5000)).find("roi is too intricate"), std::string::npos);
 }
 
+TEST(Polygon, RefusesMoreEdgePairsThanTheLimitAndNamesItsParameter) {
+  const PolygonLimit limit{1000, "~requests/max_edge_pairs"};
+  EXPECT_NO_THROW(Polygon(slantingComb(10), "roi", limit));
+  try {
+    Polygon(slantingComb(100), "roi", limit);
+    FAIL() << "it was taken";
+  } catch (const InvalidRequest& error) {
+    EXPECT_NE(std::string(error.what()).find("more than 1000 pairs lie side by side (~requests/max_edge_pairs)"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(Polygon, IsTheSameElsewhere) {
+  const Polygon u(kU, "u"), moved = u.movedBy({1e6, -3.0});
+  EXPECT_EQ(moved.area(), u.area());
+  EXPECT_EQ(moved.box().max, u.box().max + Point2d(1e6, -3.0));
+  EXPECT_TRUE(moved.contains({1e6 + 15.0, 2.0}));
+  EXPECT_FALSE(moved.contains({1e6 + 15.0, 12.0}));
+}
+
 TEST(Polygon, ContainsWhatTheWindingNumberSays) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> radius(5.0, 20.0), place(-25.0, 25.0);

@@ -271,5 +271,13 @@ TEST(WaypointPath, TakesALineThatTurnsBackOnItselfAsACorner) {
   for (const ReferencePoint& point : result.path) EXPECT_TRUE(point.pose().isFinite() && std::isfinite(point.kappa));
 }
 
+TEST(WaypointPath, IsGivenUpWhenItIsCancelled) {
+  const CancelSource cancel;
+  const WaypointLine line{{{0.0, 0.0}, {50000.0, 0.0}}};
+  EXPECT_NO_THROW(pathThrough(line, VehicleParams(), 0.5, 5.0, {}, cancel.token()));
+  cancel.cancel();
+  EXPECT_THROW(pathThrough(line, VehicleParams(), 0.5, 5.0, {}, cancel.token()), Cancelled);
+}
+
 }  // namespace
 }  // namespace external_command

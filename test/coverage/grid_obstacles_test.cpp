@@ -95,11 +95,17 @@ TEST(GridObstacles, OfNoiseEndWhenTheyAreCancelled) {
 }
 
 TEST(GridObstacles, TooManyAreRefused) {
-  try {
-    CoveragePlanner({}, paramsFor(3600.0)).plan(areaWith(gridOfNoise(0.3, 2000)), std::nullopt, {}, {});
-    FAIL() << "it was planned";
-  } catch (const InvalidRequest& error) {
-    EXPECT_NE(std::string(error.what()).find("obstacle grid"), std::string::npos) << error.what();
+  CoverageParams params = paramsFor(3600.0);
+  for (const std::size_t most : {params.max_grid_rows, std::size_t{10}}) {
+    params.max_grid_rows = most;
+    try {
+      CoveragePlanner({}, params).plan(areaWith(gridOfNoise(0.3, 2000)), std::nullopt, {}, {});
+      FAIL() << "it was planned";
+    } catch (const InvalidRequest& error) {
+      const std::string limit = "more than " + std::to_string(most) + " rows of obstacles";
+      EXPECT_NE(std::string(error.what()).find(limit), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("~coverage/max_grid_rows"), std::string::npos) << error.what();
+    }
   }
 }
 

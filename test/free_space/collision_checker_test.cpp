@@ -156,6 +156,36 @@ TEST(CollisionChecker, RefusesANegativeMargin) {
   EXPECT_NO_THROW(CollisionChecker(smallCar(), 0.1, Region()));
 }
 
+std::string refusalOf(const RegionLimits& limits) {
+  Region::Parts parts;
+  parts.non_drivable = clutter(1, 50, {0.0, 0.0});
+  parts.limits = limits;
+  try {
+    const CollisionChecker checker(smallCar(), 0.1, Region(parts));
+  } catch (const InvalidRequest& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(CollisionChecker, RefusesARegionBeyondItsLimitsAndNamesTheParameter) {
+  EXPECT_EQ(refusalOf({}), "");
+  EXPECT_NE(refusalOf({20, 1000000}).find("more than 20 edges (~free_space/max_edges)"), std::string::npos);
+  EXPECT_NE(refusalOf({1000, 1000}).find("more than 1000 in sum over the cells near them (~free_space/max_near_edges)"),
+            std::string::npos);
+  EXPECT_NO_THROW(RegionLimits().validate());
+  EXPECT_THROW((RegionLimits{0, 1000}.validate()), InvalidParameter);
+  EXPECT_THROW((RegionLimits{1000, 0}.validate()), InvalidParameter);
+}
+
+TEST(CollisionChecker, IsNotMadeToTheEndWhenItIsCancelled) {
+  const CancelSource cancel;
+  cancel.cancel();
+  Region::Parts parts;
+  parts.non_drivable = clutter(1, 50, {0.0, 0.0});
+  EXPECT_THROW(CollisionChecker(smallCar(), 0.1, Region(parts), cancel.token().checkpoint()), Cancelled);
+}
+
 /// 40 x 30 cells of 0.5 m, all free but a few random ones, some of them unknown.
 OccupancyGrid randomGrid(unsigned seed, double heading) {
   OccupancyGrid grid;

@@ -100,6 +100,16 @@ TEST_F(TwoLaneRoad, DropsALaneWhoseCentreLineLeapsFurtherThanAnyRoadIsStraight) 
   EXPECT_LT(map->box().max.norm(), 1e4);
 }
 
+TEST_F(TwoLaneRoad, DropsLanesWithSegmentsLongerThanTheParameterSays) {
+  builder["far_right"].center = {builder["far_right"].center.front(), builder["far_right"].center.back()};
+  MapParams params;
+  params.max_segment_length = 50.0;
+  const HdMap map(builder.data(), Point2d::Zero(), params);
+  EXPECT_FALSE(map.findLane("far_right"));
+  EXPECT_TRUE(map.findLane("right"));
+  EXPECT_TRUE(warnsOf(map.warnings(), 1, "the limit is 50.00 m (~map/max_segment_length)"));
+}
+
 TEST_F(TwoLaneRoad, KeepsALaneThatIsStraightForKilometres) {
   builder["far_right"].center.back() += Point2d(9000.0, 0.0);
   EXPECT_TRUE(builder.build()->findLane("far_right"));

@@ -2,6 +2,8 @@
 // What is put right, dropped, or only counted, about the links, neighbours and directions of lanes.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "external_command/core/error.h"
 #include "external_command/map/hd_map.h"
 #include "map/map_files.h"
@@ -91,6 +93,8 @@ TEST_F(ThreeInARow, HaveFoldsAndKinksCounted) {
 TEST(MapParams, RefuseValuesOutOfRange) {
   EXPECT_NO_THROW(MapParams().validate());
   EXPECT_THROW(MapParams{-1.0}.validate(), InvalidParameter);
+  EXPECT_THROW((MapParams{2.0, 0.0}.validate()), InvalidParameter);
+  EXPECT_THROW((MapParams{2.0, std::nan("")}.validate()), InvalidParameter);
 }
 
 ///   left  ---->

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 
 #include "external_command/core/error.h"
 
 namespace external_command {
+
+/// Called every few milliseconds of a long piece of work; what it throws ends that.
+using Checkpoint = std::function<void()>;
 
 /// Read side of a cancellation: a cheap value that every long loop polls. A default constructed token is never raised.
 /// Thread-safe.
@@ -19,6 +23,11 @@ class CancelToken {
   /// @throws Cancelled  the token was raised.
   void throwIfCancelled() const {
     if (isCancelled()) throw Cancelled("planning was cancelled");
+  }
+
+  /// Throws Cancelled once the token was raised.
+  Checkpoint checkpoint() const {
+    return [token = *this] { token.throwIfCancelled(); };
   }
 
  private:

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "external_command/core/cancel_token.h"
 #include "external_command/core/path.h"
 #include "external_command/core/polygon.h"
 
@@ -17,10 +18,11 @@ struct DriveLimits {
   /// @throws InvalidParameter  out of range.
   void validate() const;
 
-  /// Each throws InvalidRequest; the text tells place or value, limit, and parameter.
+  /// Each throws InvalidRequest; the text tells place or value, limit, and parameter. requireInside() throws Cancelled
+  /// where `cancel` was raised.
   void requireSpeed(double target_speed) const;
   void requireGoal(const Point2d& vehicle, const Point2d& goal) const;
-  void requireInside(const Path& path, const VehicleParams& vehicle) const;
+  void requireInside(const Path& path, const VehicleParams& vehicle, const CancelToken& cancel = {}) const;
 };
 
 }  // namespace external_command

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "external_command/core/cancel_token.h"
 #include "external_command/core/path_bounds.h"
 
 namespace external_command {
@@ -53,7 +54,8 @@ void checkWaypoints(const WaypointLine& line, double spacing, const PathBounds& 
 ///
 /// Its speed is capped by `target_speed` [m/s] (0: not given).
 /// @throws InvalidRequest  as checkWaypoints().
+/// @throws Cancelled  `cancel` was raised.
 WaypointPath pathThrough(const WaypointLine& line, const VehicleParams& vehicle, double spacing, double target_speed,
-                         const PathBounds& bounds = {});
+                         const PathBounds& bounds = {}, const CancelToken& cancel = {});
 
 }  // namespace external_command

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 
 namespace external_command {
@@ -22,11 +23,12 @@ struct CoverageParams {
   std::optional<double> swath_heading;  ///< of the straight swaths [rad]; not given: chosen for the objective
   CoverageObjective objective = CoverageObjective::kShortest;
 
-  double target_coverage = 0.993;  ///< of the reachable area; beyond it, only what costs little is swept, [0.5, 1]
-  double gear_change_cost = 0.5;   ///< price of a gear change, as length, not negative [m]
-  double spacing = 1.0;            ///< between points of the path, at most, [0.05, 100] [m]
-  double time_budget = 3.0;        ///< past 0.4 of it no further variant is tried, past all of it the plan is given up,
-                                   ///< (0, 3600] [s]
+  double target_coverage = 0.993;      ///< of the reachable area; beyond it, only what costs little is swept, [0.5, 1]
+  double gear_change_cost = 0.5;       ///< price of a gear change, as length, not negative [m]
+  double spacing = 1.0;                ///< between points of the path, at most, [0.05, 100] [m]
+  std::size_t max_grid_rows = 100000;  ///< of blocked cells side by side in the obstacle grid, [1, 10000000]
+  double time_budget = 3.0;  ///< past 0.4 of it no further variant is tried, past all of it the plan is given up,
+                             ///< (0, 3600] [s]
 
   /// @throws InvalidParameter  a value is out of range: the text names key, value and range.
   void validate() const;

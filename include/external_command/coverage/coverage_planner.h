@@ -23,6 +23,7 @@ struct CoverageArea {
   std::vector<Polygon> holes;
   /// What it blocks are holes too.
   std::optional<OccupancyGrid> grid = std::nullopt;
+  RegionLimits limits = {};
 };
 
 /// A line, or the rest of one that was begun, on the path.

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "external_command/core/cancel_token.h"
 #include "external_command/core/path.h"
 #include "external_command/core/pose.h"
 #include "external_command/core/vehicle.h"
@@ -34,8 +35,11 @@ class CollisionChecker {
  public:
   /// Builds an index over the region's edges; about a millisecond for a hundred polygons.
   /// @param margin  the footprint keeps at least this distance to every obstacle and border, not negative [m].
+  /// @param checkpoint  called now and then meanwhile: a large region takes a second.
   /// @throws InvalidParameter  vehicle or margin is out of range.
-  CollisionChecker(const VehicleParams& vehicle, double margin, const Region& region);
+  /// @throws InvalidRequest  the region has more edges than its limits allow.
+  CollisionChecker(
+      const VehicleParams& vehicle, double margin, const Region& region, const Checkpoint& checkpoint = [] {});
   ~CollisionChecker();
   CollisionChecker(CollisionChecker&&) noexcept;
   CollisionChecker& operator=(CollisionChecker&&) noexcept;
@@ -61,7 +65,8 @@ class CollisionChecker {
 };
 
 /// For an error text about `pose`: ", where cells of the obstacle grid are unknown ..." with the parameter, where the
-/// pose would be free if these cells were; else empty.
-std::string unknownCellsHint(const VehicleParams& vehicle, double margin, const Region& region, const Pose2d& pose);
+/// pose would be free if these cells were; else empty. Takes as long as making a CollisionChecker.
+std::string unknownCellsHint(const VehicleParams& vehicle, double margin, const Region& region, const Pose2d& pose,
+                             const Checkpoint& checkpoint);
 
 }  // namespace external_command

@@ -23,6 +23,16 @@ struct OccupancyGrid {
   bool outside_is_blocked = false;  ///< so is everything beyond the grid
 };
 
+/// How much memory a region may take while it is planned in.
+struct RegionLimits {
+  std::size_t max_edges = 2'000'000;        ///< of all obstacles and borders, [4, 100000000]
+  std::size_t max_near_edges = 32'000'000;  ///< those within the vehicle's reach, in sum over cells of half a metre or
+                                            ///< more; 12 bytes each, [4, 1000000000]
+
+  /// @throws InvalidParameter  out of range.
+  void validate() const;
+};
+
 /// Where a vehicle may be. Immutable and thread-safe; far from the origin nothing is lost.
 class Region {
  public:
@@ -32,6 +42,7 @@ class Region {
     std::vector<Polygon> non_drivable;       ///< filled obstacles
     std::optional<OccupancyGrid> grid;       ///< further obstacles
     std::optional<BoundingBox> axle_bounds;  ///< the rear-axle centre stays inside this box
+    RegionLimits limits;                     ///< beyond which those who plan in it refuse it
   };
 
   /// No border, no obstacle.
@@ -44,6 +55,7 @@ class Region {
   const std::vector<Polygon>& nonDrivable() const { return parts_.non_drivable; }
   const std::optional<OccupancyGrid>& grid() const { return parts_.grid; }
   const std::optional<BoundingBox>& axleBounds() const { return parts_.axle_bounds; }
+  const RegionLimits& limits() const { return parts_.limits; }
 
  private:
   Parts parts_;

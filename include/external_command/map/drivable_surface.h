@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "external_command/core/cancel_token.h"
 #include "external_command/core/polygon.h"
 #include "external_command/map/hd_map.h"
 
@@ -24,6 +25,8 @@ struct SurfaceParams {
 /// between the lanes and `core`. Lanes that do not connect to `core` are left out.
 /// A lane's surface is its centre line widened by half its width to both sides, and by a little more, so that lanes
 /// that only touch connect.
-Surface drivableSurface(const HdMap& map, const Polygon& core, const Point2d& center, const SurfaceParams& params);
+/// @throws Cancelled  `cancel` was raised; looked at after each lane.
+Surface drivableSurface(const HdMap& map, const Polygon& core, const Point2d& center, const SurfaceParams& params,
+                        const CancelToken& cancel = {});
 
 }  // namespace external_command

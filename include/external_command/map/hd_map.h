@@ -75,8 +75,9 @@ struct BrokenLink {
 };
 
 struct MapParams {
-  double max_link_gap = 2.0;   ///< links whose ends lie further apart are not driven [m]
-  bool keep_findings = false;  ///< findings() tells each fault, not only how many there are of a kind
+  double max_link_gap = 2.0;            ///< links whose ends lie further apart are not driven [m]
+  double max_segment_length = 10000.0;  ///< lanes with two points of the centre line further apart are dropped [m]
+  bool keep_findings = false;           ///< findings() tells each fault, not only how many there are of a kind
 
   /// @throws InvalidParameter  out of range.
   void validate() const;
@@ -139,9 +140,10 @@ struct LaneMatch {
 /// limits (*), widths (*, see Lane::widthAt).
 ///
 /// Dropped: lanes without an id, with an earlier lane's id, with fewer than two distinct points, with a coordinate that
-/// is not finite or beyond 1e8 m; references and overlaps that dangle; boundaries, widths and speed limits out of
-/// range; junctions, parking spaces and areas whose polygon is not simple; forward neighbours that run the other way or
-/// lie too far off; links whose ends lie further apart than MapParams::max_link_gap, see brokenLinks().
+/// is not finite or beyond 1e8 m, with two points further apart than MapParams::max_segment_length; references and
+/// overlaps that dangle; boundaries, widths and speed limits out of range; junctions, parking spaces and areas whose
+/// polygon is not simple; forward neighbours that run the other way or lie too far off; links whose ends lie further
+/// apart than MapParams::max_link_gap, see brokenLinks().
 ///
 /// Counted, the worst named: links whose ends do not meet, overlap, or jump in heading; centre lines that fold back.
 ///

@@ -103,7 +103,7 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
       const double speed = flow_->cappedSpeed(command.target_speed, &plan.report);
       if (const auto task = convert(command, plan.start)) flow_->addRoute(*task, speed, cancel, &plan);
       processSpecialCommand(command, cancel, &plan);
-      flow_->assemble(speed, false, &plan);
+      flow_->assemble(speed, false, cancel, &plan);
       flow_->complete(command.command_id, speed, &plan);
     });
     takeReport(begin, &plan, response);
@@ -138,7 +138,7 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
       if (const auto task = convert(command, plan.start)) flow_->addRoute(*task, speed, planning.token(), &plan);
       *ticket = this->context().gate().begin(admitted, planning);
       processSpecialCommand(command, planning.token(), &plan);
-      flow_->assemble(speed, is_at_vehicle, &plan);
+      flow_->assemble(speed, is_at_vehicle, planning.token(), &plan);
       if (is_at_vehicle && here.isKnown() && !flow_->fitToVehicle(here.pose(), &plan)) {
         const double took = (ros::SteadyTime::now() - try_begin).toSec();
         requireAnotherTry(tries, took);

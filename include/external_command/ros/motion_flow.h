@@ -22,7 +22,7 @@ class MotionFlow {
   /// Fills what is left of the path; its speeds are still caps.
   /// @throws InvalidRequest  the path is too large, or leads beyond what ContextParams::limits allow.
   /// @param begins_at_vehicle  the way to plan.start() is put in front of it.
-  void assemble(double target_speed, bool begins_at_vehicle, MotionPlan* plan) const;
+  void assemble(double target_speed, bool begins_at_vehicle, const CancelToken& cancel, MotionPlan* plan) const;
 
   /// Makes the path begin where the vehicle is now, though it may have moved while the path was planned: what it has
   /// driven of it already is cut off.
