@@ -50,7 +50,7 @@ TEXT
 	dh \$@ --buildsystem=cmake --with python3
 
 override_dh_auto_configure:
-	dh_auto_configure -- -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=$prefix -DCATKIN_ENABLE_TESTING=OFF \\
+	dh_auto_configure -- -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=$prefix -DCATKIN_ENABLE_TESTING=OFF -DEC_RVIZ_PLUGINS=OFF \\
 	  -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 ${options[*]} \$(EC_CMAKE_ARGS)
 
 override_dh_shlibdeps:

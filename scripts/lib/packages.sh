@@ -26,9 +26,8 @@ EC_DEBIAN_TEST_PACKAGES=(
   catkin-lint libgtest-dev librostest-dev python3-rostest
   python3-numpy python3-rosnode python3-rosparam python3-rospkg python3-rostopic
   rviz  # what demo.launch starts
+  librviz-dev qtbase5-dev  # its panel is built where they are
 )
-# A picture of rviz: a display for where there is none, and what takes the screenshot.
-EC_DEBIAN_PICTURE_PACKAGES=(xvfb x11-utils imagemagick libgl1-mesa-dri)
 
 # Names of Ubuntu 20.04 with Noetic from packages.ros.org.
 EC_NOETIC_BUILD_PACKAGES=(
@@ -46,8 +45,12 @@ EC_NOETIC_RUN_PACKAGES=(
 )
 EC_NOETIC_TEST_PACKAGES=(
   libgtest-dev python3-catkin-lint python3-numpy python3-rospkg
-  ros-noetic-rosnode ros-noetic-rosparam ros-noetic-rostest ros-noetic-rostopic ros-noetic-rviz
+  ros-noetic-rosnode ros-noetic-rosparam ros-noetic-rostest ros-noetic-rostopic
+  ros-noetic-rviz qtbase5-dev
 )
+
+# Pictures of rviz, and tests of its panel: a display for where there is none, what draws, clicks, and takes pictures.
+EC_SCREEN_PACKAGES=(xvfb x11-utils xdotool imagemagick libgl1-mesa-dri)
 
 # What /etc/os-release says of NAME, e.g. ID or VERSION_CODENAME.
 ec_os_release() { (set +u && . /etc/os-release 2>/dev/null && printf '%s' "${!1-}"); }
@@ -56,7 +59,7 @@ ec_os_release() { (set +u && . /etc/os-release 2>/dev/null && printf '%s' "${!1-
 # its kin have in their archive.
 ec_is_noetic() { [ "$(ec_os_release VERSION_CODENAME)" = focal ] && [ "${EC_ROS-}" != debian ]; }
 
-# ec_install [--picture] [PACKAGE...]: installs what is missing of the packages above, and of those named; a fraction of
+# ec_install [PACKAGE...]: installs what is missing of the packages above, and of those named; a fraction of
 # a second where all is there.
 ec_install() {
   [ "${EC_NO_INSTALL:-0}" = 0 ] || return 0
@@ -64,8 +67,7 @@ ec_install() {
   if ec_is_noetic; then
     wanted=("${EC_NOETIC_BUILD_PACKAGES[@]}" "${EC_NOETIC_RUN_PACKAGES[@]}" "${EC_NOETIC_TEST_PACKAGES[@]}")
   fi
-  if [ "${1-}" = --picture ]; then shift && wanted+=("${EC_DEBIAN_PICTURE_PACKAGES[@]}"); fi
-  wanted+=("$@")
+  wanted+=("${EC_SCREEN_PACKAGES[@]}" "$@")
   local missing
   mapfile -t missing < <(ec_missing_packages "${wanted[@]}")
   [ "${#missing[@]}" -gt 0 ] || return 0
