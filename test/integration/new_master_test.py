@@ -38,7 +38,8 @@ def registrations():
 def parameters():
     """Of what is loaded."""
     of_all = rosgraph.Master("/test").getParam("/apollo")
-    of_all.pop("old_routing_adapter", None)
+    for adapter in ("old_routing_adapter", "move_base_adapter"):
+        of_all.pop(adapter, None)
     return of_all
 
 
