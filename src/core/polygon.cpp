@@ -3,20 +3,17 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
-#include <optional>
-#include <utility>
 
 #include "external_command/core/error.h"
 #include "external_command/core/text.h"
+#include "simple_polygon.h"
 
 namespace external_command {
 
 namespace {
 
-constexpr double kMinEdge = 1e-3;   // [m]
-constexpr double kTouching = 1e-6;  // [m]
-constexpr double kMinArea = 1e-4;   // [m^2]
+constexpr double kMinEdge = 1e-3;  // [m]
+constexpr double kMinArea = 1e-4;  // [m^2]
 
 double signedArea(const std::vector<Point2d>& points) {
   double twice = 0.0;  // relative to the first point: UTM coordinates would eat the digits
@@ -26,56 +23,8 @@ double signedArea(const std::vector<Point2d>& points) {
   return twice / 2.0;
 }
 
-bool isOn(const Point2d& point, const Point2d& a, const Point2d& b) {
-  return (point - nearestOnSegment(point, a, b)).squaredNorm() < kTouching * kTouching;
-}
-
-/// True where the edges that begin at the vertices `i` and `j` have more in common than a vertex that is both's.
-bool edgesMeet(const std::vector<Point2d>& points, std::size_t i, std::size_t j) {
-  const std::size_t n = points.size();
-  const Point2d &a = points[i], &b = points[(i + 1) % n], &c = points[j], &d = points[(j + 1) % n];
-  if ((a.cwiseMin(b).array() > c.cwiseMax(d).array() + kTouching).any()) return false;
-  if ((c.cwiseMin(d).array() > a.cwiseMax(b).array() + kTouching).any()) return false;
-  if ((i + 1) % n == j) return isOn(a, c, d) || isOn(d, a, b);
-  if ((j + 1) % n == i) return isOn(c, a, b) || isOn(b, c, d);
-  if (isOn(a, c, d) || isOn(b, c, d) || isOn(c, a, b) || isOn(d, a, b)) return true;
-  return cross(b - a, c - a) * cross(b - a, d - a) < 0.0 && cross(d - c, a - c) * cross(d - c, b - c) < 0.0;
-}
-
-/// Two edges that meet, by their first vertices; nullopt for a simple polygon. Sweeps along the axis that the edges are
-/// shorter in and compares those that overlap there: O(n log n) unless most of them do.
-/// @throws InvalidRequest  too many do.
-std::optional<std::pair<std::size_t, std::size_t>> meetingEdges(const std::vector<Point2d>& points,
-                                                                const std::string& name, const PolygonLimit& limit) {
-  const std::size_t n = points.size();
-  Point2d extent = Point2d::Zero();
-  for (std::size_t i = 0; i < n; ++i) extent += (points[(i + 1) % n] - points[i]).cwiseAbs();
-  const int axis = extent.x() < extent.y() ? 0 : 1;
-  const auto low = [&](std::size_t i) { return std::min(points[i][axis], points[(i + 1) % n][axis]); };
-  const auto high = [&](std::size_t i) { return std::max(points[i][axis], points[(i + 1) % n][axis]); };
-  std::vector<std::size_t> order(n), open;
-  std::size_t pairs = 0;
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return low(i) < low(j); });
-  for (const std::size_t edge : order) {
-    const auto isBehind = [&](std::size_t other) { return high(other) + kTouching < low(edge); };
-    open.erase(std::remove_if(open.begin(), open.end(), isBehind), open.end());
-    pairs += open.size();
-    if (pairs > limit.max_edge_pairs) {
-      const std::string parameter = limit.parameter != nullptr ? text(" (", limit.parameter, ")") : "";
-      throw InvalidRequest(text(name, " is too intricate: of its ", n, " edges more than ", limit.max_edge_pairs,
-                                " pairs lie side by side", parameter, "; give fewer vertices"));
-    }
-    for (const std::size_t other : open) {
-      if (edgesMeet(points, edge, other)) return std::minmax(edge, other);
-    }
-    open.push_back(edge);
-  }
-  return std::nullopt;
-}
-
-void requireSimple(const std::vector<Point2d>& points, const std::string& name, const PolygonLimit& limit) {
-  const auto edges = meetingEdges(points, name, limit);
+void requireSimple(const std::vector<Point2d>& points, const std::string& name) {
+  const auto edges = meetingEdges(points);
   if (!edges) return;
   throw InvalidRequest(text(name, " crosses or touches itself: the edge from vertex ", edges->first, " ",
                             at(points[edges->first]), " meets the edge from vertex ", edges->second, " ",
@@ -93,7 +42,7 @@ BoundingBox boxOf(const std::vector<Point2d>& points) {
 
 }  // namespace
 
-Polygon::Polygon(const std::vector<Point2d>& points, const std::string& name, const PolygonLimit& limit) {
+Polygon::Polygon(const std::vector<Point2d>& points, const std::string& name) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite()) throw InvalidRequest(text(name, " vertex ", i, " is not finite"));
     if (!isPlausible(points[i])) {
@@ -108,7 +57,7 @@ Polygon::Polygon(const std::vector<Point2d>& points, const std::string& name, co
   const double area = signedArea(points_);
   if (area < 0.0) std::reverse(points_.begin(), points_.end());
   area_ = std::abs(area);
-  requireSimple(points_, name, limit);
+  requireSimple(points_, name);
   if (area_ < kMinArea) throw InvalidRequest(text(name, " has no area: ", area_, " m^2 inside its vertices"));
   box_ = boxOf(points_);
 }

@@ -10,25 +10,34 @@ CoverageGrid::CoverageGrid(const BoundingBox& box, double cell)
       rows_(static_cast<int>((box.max.y() - box.min.y()) / cell) + 3),
       cells_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0) {}
 
-void CoverageGrid::set(const shapes::Shapes& within, std::uint8_t flag) {
-  std::vector<std::vector<double>> crossings(static_cast<std::size_t>(rows_));  // of each row of centres, in cells
-  const auto cross = [&](const auto& ring) {
-    for (std::size_t i = 1; i < ring.size(); ++i) {
-      const Point2d a = (Point2d(ring[i - 1].x(), ring[i - 1].y()) - corner_) / cell_ - Point2d(0.5, 0.5);
-      const Point2d b = (Point2d(ring[i].x(), ring[i].y()) - corner_) / cell_ - Point2d(0.5, 0.5);
-      const int first = std::max(0, static_cast<int>(std::ceil(std::min(a.y(), b.y()))));
-      const int last = std::min(rows_ - 1, static_cast<int>(std::ceil(std::max(a.y(), b.y()))) - 1);
-      for (int row = first; row <= last; ++row) {
-        crossings[static_cast<std::size_t>(row)].push_back(a.x() + (row - a.y()) * (b.x() - a.x()) / (b.y() - a.y()));
-      }
-    }
-  };
-  for (const shapes::Shape& shape : within) {
-    cross(shape.outer());
-    for (const auto& hole : shape.inners()) cross(hole);
+template <class Ring>
+void CoverageGrid::addEdges(const Ring& ring, std::vector<RowEdge>* edges) const {
+  for (std::size_t i = 1; i < ring.size(); ++i) {
+    const Point2d a = (Point2d(ring[i - 1].x(), ring[i - 1].y()) - corner_) / cell_ - Point2d(0.5, 0.5);
+    const Point2d b = (Point2d(ring[i].x(), ring[i].y()) - corner_) / cell_ - Point2d(0.5, 0.5);
+    const int first = std::max(0, static_cast<int>(std::ceil(std::min(a.y(), b.y()))));
+    const int last = std::min(rows_ - 1, static_cast<int>(std::ceil(std::max(a.y(), b.y()))) - 1);
+    if (first <= last) edges->push_back({first, last, a, b - a});
   }
+}
+
+/// Row by row: an edge is looked at in the rows of centres that it crosses, and forgotten.
+void CoverageGrid::set(const shapes::Shapes& within, std::uint8_t flag) {
+  std::vector<RowEdge> edges, open;
+  for (const shapes::Shape& shape : within) {
+    addEdges(shape.outer(), &edges);
+    for (const auto& hole : shape.inners()) addEdges(hole, &edges);
+  }
+  std::sort(edges.begin(), edges.end(), [](const RowEdge& a, const RowEdge& b) { return a.first > b.first; });
+  std::vector<double> xs;
   for (int row = 0; row < rows_; ++row) {
-    std::vector<double>& xs = crossings[static_cast<std::size_t>(row)];
+    for (; !edges.empty() && edges.back().first == row; edges.pop_back()) open.push_back(edges.back());
+    open.erase(std::remove_if(open.begin(), open.end(), [row](const RowEdge& edge) { return edge.last < row; }),
+               open.end());
+    xs.clear();
+    for (const RowEdge& edge : open) {
+      xs.push_back(edge.from.x() + (row - edge.from.y()) * edge.along.x() / edge.along.y());
+    }
     std::sort(xs.begin(), xs.end());
     for (std::size_t i = 0; i + 1 < xs.size(); i += 2) {
       const int begin = std::max(0, static_cast<int>(std::ceil(xs[i])));

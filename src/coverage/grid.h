@@ -68,6 +68,17 @@ class CoverageGrid {
   static void visitRuns(Cells& grid, const std::array<Point2d, 4>& quad, const Visit& visit);
 
  private:
+  /// The rows of centres that an edge crosses; lengths in cells.
+  struct RowEdge {
+    int first;
+    int last;
+    Point2d from;
+    Point2d along;
+  };
+
+  template <class Ring>
+  void addEdges(const Ring& ring, std::vector<RowEdge>* edges) const;
+
   std::size_t index(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
   }

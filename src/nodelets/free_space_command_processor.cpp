@@ -10,16 +10,14 @@ namespace external_command {
 
 namespace {
 
-Region::Parts partsOf(const FreeSpaceCommand& command, const Pose2d& frame, const PolygonLimit& limit,
-                      const CancelToken& cancel) {
+Region::Parts partsOf(const FreeSpaceCommand& command, const Pose2d& frame, const CancelToken& cancel) {
   Region::Parts parts;
   if (!command.drivable_roi.points.empty()) {
-    parts.drivable = toPolygon(command.drivable_roi, frame, "drivable_roi", limit);
+    parts.drivable = toPolygon(command.drivable_roi, frame, "drivable_roi");
   }
   for (std::size_t i = 0; i < command.non_drivable_roi.size(); ++i) {
     cancel.throwIfCancelled();
-    parts.non_drivable.push_back(
-        toPolygon(command.non_drivable_roi[i], frame, text("non_drivable_roi[", i, "]"), limit));
+    parts.non_drivable.push_back(toPolygon(command.non_drivable_roi[i], frame, text("non_drivable_roi[", i, "]")));
   }
   return parts;
 }
@@ -54,7 +52,7 @@ void FreeSpaceCommandProcessor::check(const FreeSpaceCommand& command) const {
   if (!command.drivable_roi.points.empty())
     checkPolygon(command.drivable_roi, "drivable_roi", context().params().requests);
   requireNotNegative(command.target_speed, "target_speed");
-  partsOf(command, {}, context().params().requests.polygon(), {});  // polygons that cross themselves
+  partsOf(command, {}, {});  // polygons that cross themselves
 }
 
 void FreeSpaceCommandProcessor::processSpecialCommand(const FreeSpaceCommand& command, const CancelToken& cancel,
@@ -64,7 +62,7 @@ void FreeSpaceCommandProcessor::processSpecialCommand(const FreeSpaceCommand& co
   const Pose2d start = plan->start.pose();
   const Pose2d goal = toMapPose(command.parking_spot_pose, frame);
   goal_limits_.check("parking_spot_pose is at", "goal", goal.position(), start.position(), &plan->report.warnings);
-  const Region region = planner_->regionOf(partsOf(command, frame, context().params().requests.polygon(), cancel));
+  const Region region = planner_->regionOf(partsOf(command, frame, cancel));
 
   plan->scene.start = start;
   plan->scene.goal = goal;

@@ -134,12 +134,10 @@ const Area& ZoneCoverCommandProcessor::areaOf(const ZoneCoverCommand& command) c
 CoverageArea ZoneCoverCommandProcessor::zoneOf(const ZoneCoverCommand& command, const CancelToken& cancel) const {
   const Pose2d frame = context().vehiclePose().ofFrame(command.header.frame_id);
   const bool by_area = !command.zone_cover_area_id.empty();
-  const PolygonLimit limit = context().params().requests.polygon();
-  CoverageArea zone{by_area ? areaOf(command).polygon : toPolygon(command.drivable_roi, frame, "drivable_roi", limit),
-                    {}};
+  CoverageArea zone{by_area ? areaOf(command).polygon : toPolygon(command.drivable_roi, frame, "drivable_roi"), {}};
   for (std::size_t i = 0; i < command.non_drivable_roi.size(); ++i) {
     cancel.throwIfCancelled();
-    zone.holes.push_back(toPolygon(command.non_drivable_roi[i], frame, text("non_drivable_roi[", i, "]"), limit));
+    zone.holes.push_back(toPolygon(command.non_drivable_roi[i], frame, text("non_drivable_roi[", i, "]")));
   }
   zone.grid = planner_->grid();
   zone.limits = planner_->regionLimits();

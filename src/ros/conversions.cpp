@@ -48,8 +48,8 @@ std::vector<Point2d> toMapPoints(const std::vector<geometry_msgs::Point>& points
   return converted;
 }
 
-Polygon toPolygon(const RoiPolygon& roi, const Pose2d& frame, const std::string& name, const PolygonLimit& limit) {
-  return Polygon(toMapPoints(roi.points, frame), name, limit);
+Polygon toPolygon(const RoiPolygon& roi, const Pose2d& frame, const std::string& name) {
+  return Polygon(toMapPoints(roi.points, frame), name);
 }
 
 geometry_msgs::Point toPointMsg(const Point2d& point) {

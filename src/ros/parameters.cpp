@@ -266,7 +266,6 @@ RequestLimits readRequestLimits(const ParameterReader& reader) {
   reader.readSize("max_black_list", 1, 1000000, &limits.max_black_list);
   reader.readSize("max_polygons", 1, 100000, &limits.max_polygons);
   reader.readSize("max_polygon_points", 3, 1000000, &limits.max_polygon_points);
-  reader.readSize("max_edge_pairs", 1000, 1000000000, &limits.max_edge_pairs);
   return limits;
 }
 

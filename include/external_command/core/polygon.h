@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -14,20 +13,14 @@ struct BoundingBox {
   Point2d max;
 };
 
-/// How much work the check of a polygon may be.
-struct PolygonLimit {
-  std::size_t max_edge_pairs = 20'000'000;  ///< of edges side by side, which are compared; a tenth of a second
-  const char* parameter = nullptr;          ///< that sets it, for the text of the refusal; may be nullptr
-};
-
 /// A simple polygon, counter-clockwise, first point not repeated. Immutable and thread-safe.
 class Polygon {
  public:
-  /// Either orientation; a repeated first point and consecutive points nearer than 1 mm are dropped.
+  /// Either orientation; a repeated first point and consecutive points nearer than 1 mm are dropped. O(n log n).
   /// @param name  what the caller calls it, "non_drivable_roi[2]": the error texts begin with it.
   /// @throws InvalidRequest  a point is not plausible (pose.h), fewer than 3 distinct points, no area, or it crosses
-  ///                         itself: the text names the vertex. Or it is beyond `limit`.
-  Polygon(const std::vector<Point2d>& points, const std::string& name, const PolygonLimit& limit = {});
+  ///                         itself: the text names the vertex.
+  Polygon(const std::vector<Point2d>& points, const std::string& name);
 
   /// The same polygon elsewhere, without another check.
   Polygon movedBy(const Point2d& offset) const;

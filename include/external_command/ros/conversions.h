@@ -22,7 +22,7 @@ Point2d toMapPoint(const geometry_msgs::Point& point, const Pose2d& frame);
 std::vector<Point2d> toMapPoints(const std::vector<geometry_msgs::Point>& points, const Pose2d& frame);
 
 /// @throws InvalidRequest  not a simple polygon; the text begins with `name`.
-Polygon toPolygon(const RoiPolygon& roi, const Pose2d& frame, const std::string& name, const PolygonLimit& limit = {});
+Polygon toPolygon(const RoiPolygon& roi, const Pose2d& frame, const std::string& name);
 
 geometry_msgs::Point toPointMsg(const Point2d& point);
 PlannedPath toMsg(const Path& path);

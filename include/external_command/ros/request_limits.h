@@ -3,7 +3,6 @@
 
 #include <cstddef>
 
-#include "external_command/core/polygon.h"
 #include "external_command/ros/message_size.h"
 
 namespace external_command {
@@ -18,11 +17,8 @@ struct RequestLimits {
   std::size_t max_black_list = 10000;        ///< lanes, and as many roads
   std::size_t max_polygons = 1000;
   std::size_t max_polygon_points = 10000;
-  std::size_t max_edge_pairs = 20000000;  ///< of a polygon, that lie side by side and are compared
 
   static constexpr double kCoordinate = 1e9;  ///< to either side [m]; no map of the earth reaches further
-
-  PolygonLimit polygon() const { return {max_edge_pairs, "~requests/max_edge_pairs"}; }
 
   /// Each throws InvalidRequest; the text names the field, its size, the limit and its parameter.
   void requireRequest(const MessageSize& size, const char* definition) const;
