@@ -65,10 +65,10 @@ function(ec_add_unittest name file)
             ${EC_TEST_RESULTS_DIR}/unittest-${name}.xml)
 endfunction()
 
-# ec_add_rostest(FILE DEPENDENCIES targets...)
-# A rostest file of this folder.
+# ec_add_rostest(FILE [ALONE] DEPENDENCIES targets...)
+# A rostest file of this folder. ALONE where it measures times, or needs the whole machine: nothing runs beside it.
 function(ec_add_rostest file)
-  cmake_parse_arguments(ARG "" "" "DEPENDENCIES" ${ARGN})
+  cmake_parse_arguments(ARG "ALONE" "" "DEPENDENCIES" ${ARGN})
   file(RELATIVE_PATH path ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/${file})
   string(REPLACE "/" "_" name ${path})
   string(REGEX REPLACE "\\.test$" ".xml" output ${name})
@@ -76,6 +76,9 @@ function(ec_add_rostest file)
   ec_add_test(rostest ${name} rostest-${output} DEPENDENCIES ${ARG_DEPENDENCIES}
     COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/scripts/lib/run_rostest.py ${EC_TEST_RESULTS_DIR} ${PROJECT_NAME}
             ${EC_ROSTEST} --pkgdir=${PROJECT_SOURCE_DIR} --results-filename ${output} ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+  if(ARG_ALONE)
+    set_tests_properties(_ctest_${PROJECT_NAME}_rostest_${name} PROPERTIES RUN_SERIAL TRUE)
+  endif()
 endfunction()
 
 # ec_add_launch_check(FILE)

@@ -2,6 +2,7 @@
 """Runs a rostest and puts its results into a folder of any name: run_rostest.py FOLDER PACKAGE ROSTEST ARGUMENT...
 
 rostest hands the path of the results to its test nodes without quotes, so they are written to a folder without spaces.
+Those of the test nodes, whose names do not tell the rostest, go into a folder of its name.
 """
 import glob
 import os
@@ -12,11 +13,15 @@ import tempfile
 
 
 def main(folder, package, *rostest):
+    own_result = "rostest-" + rostest[rostest.index("--results-filename") + 1]
+    of_nodes = os.path.join(folder, os.path.splitext(own_result)[0])
+    shutil.rmtree(of_nodes, ignore_errors=True)
+    os.makedirs(of_nodes)
     with tempfile.TemporaryDirectory(prefix="rostest_") as base:
         code = subprocess.call([sys.executable, *rostest, "--package=" + package, "--results-base-dir", base])
-        os.makedirs(folder, exist_ok=True)
         for path in glob.glob(os.path.join(base, package, "*.xml")):
-            shutil.move(path, os.path.join(folder, os.path.basename(path)))
+            name = os.path.basename(path)
+            shutil.move(path, os.path.join(folder if name == own_result else of_nodes, name))
     return code
 
 

@@ -20,8 +20,6 @@ from test_results import Counts, count_program
 
 # Seconds after which a program counts as hanging.
 TIMEOUT = float(os.environ.get("EC_TEST_TIMEOUT", "300"))
-# What needs no ROS master may run side by side; the others measure times, and the whole machine is theirs.
-SIDE_BY_SIDE = ("gtest", "unittest", "roslaunch-check")
 
 
 @dataclass
@@ -30,6 +28,7 @@ class Program:
     name: str
     command: List[str]
     result_file: str
+    is_serial: bool  # nothing may run beside it
 
     @property
     def title(self):
@@ -37,8 +36,31 @@ class Program:
 
     @property
     def is_split_by_rostest(self):
-        """Registered by rostest's own CMake functions, as in the examples, which leave out the quotes."""
-        return self.kind == "rostest" and " " in self.result_file and "run_rostest.py" not in self.command[-1]
+        """The quotes are left out."""
+        return self.is_registered_by_rostest and " " in self.result_file
+
+    @property
+    def is_registered_by_rostest(self):
+        """By its own CMake functions, as in the examples: results of test nodes lie where all do, and are mixed up with
+        others' that run at the same time."""
+        return self.kind == "rostest" and "run_rostest.py" not in self.command[-1]
+
+    @property
+    def runs_alone(self):
+        return self.is_serial or self.is_registered_by_rostest
+
+    @property
+    def sub_results(self):
+        """Files that rostest's test nodes wrote, beside rostest's own."""
+        if self.kind != "rostest":
+            return []
+        folder, name = os.path.split(os.path.splitext(self.result_file)[0])
+        pattern = "rosunit-*" if self.is_registered_by_rostest else os.path.join(glob.escape(name), "*.xml")
+        return sorted(glob.glob(os.path.join(glob.escape(folder), pattern)))
+
+    def forget_sub_results(self):
+        for path in self.sub_results:
+            os.remove(path)
 
 
 def list_programs(build_dir):
@@ -62,13 +84,14 @@ def _program(test, package, prefix, environment):
     wrapper = next(index for index, word in enumerate(command) if word.endswith("/run_tests.py"))
     _, _, rest = test["name"].partition(f"_ctest_{package}_")
     kind, _, name = rest.partition("_")
-    return Program(kind, prefix + name, [environment] + command, command[wrapper + 1])
+    is_serial = any(each["name"] == "RUN_SERIAL" and each["value"] for each in test.get("properties", []))
+    return Program(kind, prefix + name, [environment] + command, command[wrapper + 1], is_serial)
 
 
 def select(programs, words):
     """The programs whose title contains one of the words; all where there are none."""
     chosen = [program for program in programs if not words or any(word in program.title for word in words)]
-    return sorted(chosen, key=lambda program: (program.kind not in SIDE_BY_SIDE, program.title))
+    return sorted(chosen, key=lambda program: (program.runs_alone, program.kind == "rostest", program.title))
 
 
 class Runner:
@@ -91,14 +114,14 @@ class Runner:
         if program.is_split_by_rostest:
             return Counts(skipped=[f"{program.title}: rostest cannot run it in a path with spaces"])
         started = time.monotonic()
-        self._forget_sub_results(program)
+        program.forget_sub_results()
         mark = owned_processes.new_mark()
         log_file = os.path.join(self._log_dir, program.title.replace(" ", "-").replace("/", "-") + ".log")
         exit_code, last_words = self._execute(program, mark, log_file)
         if exit_code is None:
             counts = Counts(failures=[f"no end after {TIMEOUT:.0f} s\n{last_words}"])
         else:
-            counts = count_program(program.result_file, self._sub_results(program), exit_code, last_words)
+            counts = count_program(program.result_file, program.sub_results, exit_code, last_words)
         seconds = time.monotonic() - started
         verdict = "FAIL" if counts.failures else "ok  "
         print(f"{verdict} {program.title:<60} {counts.text()}  ({seconds:.1f} s)", flush=True)
@@ -123,19 +146,6 @@ class Runner:
                 process.wait()
                 self._live_marks.discard(mark)
 
-    @staticmethod
-    def _sub_results(program):
-        """Files that rostest's test nodes wrote, beside rostest's own."""
-        if program.kind != "rostest":
-            return []
-        return sorted(glob.glob(os.path.join(glob.escape(os.path.dirname(program.result_file)), "rosunit-*")))
-
-    @classmethod
-    def _forget_sub_results(cls, program):
-        """Their names do not tell the program; since only one rostest runs at a time, what is there then is its own."""
-        for path in cls._sub_results(program):
-            os.remove(path)
-
 
 def _tail(path, lines=20):
     with open(path, encoding="utf-8", errors="replace") as file:
@@ -144,7 +154,7 @@ def _tail(path, lines=20):
 
 def run_all(programs, runner, jobs):
     total = Counts()
-    side_by_side = [program for program in programs if program.kind in SIDE_BY_SIDE]
+    side_by_side = [program for program in programs if not program.runs_alone]
     with ThreadPoolExecutor(jobs) as pool:
         try:
             for counts in pool.map(runner.run, side_by_side):
@@ -153,7 +163,7 @@ def run_all(programs, runner, jobs):
             runner.stop()
             raise
     for program in programs:
-        if program.kind not in SIDE_BY_SIDE:
+        if program.runs_alone:
             total.add(runner.run(program))
     return total
 
