@@ -11,6 +11,8 @@ import support
 from external_command.msg import ActionCommand, Chassis, CommandStatus, RoiPolygon, ZoneCoverCommand
 from external_command.srv import Action, ZoneCover
 
+STANDING = 10  # messages of a chassis at rest in a row after which the vehicle stands, half a second
+
 
 def polygon(corners):
     return RoiPolygon(points=[Point(x=x, y=y) for x, y in corners])
@@ -73,10 +75,15 @@ class Sweeper:
         self.act(ActionCommand.STOP)
 
     def wait_until_standing(self):
-        """A path that is planned while the vehicle moves begins, on a busy machine, too far behind it."""
+        """A path that is planned while the vehicle moves begins, on a busy machine, too far behind it. One that has not
+        set out yet stands too, but not for long."""
+        chassis = support.Collector(self._chassis_topic, Chassis)
+
         def stands():
-            return rospy.wait_for_message(self._chassis_topic, Chassis, support.DEADLINE).speed_mps == 0.0
+            newest = [m.speed_mps for m in chassis.messages[-STANDING:]]
+            return len(newest) == STANDING and not any(newest)
         support.wait_until(stands, "the vehicle stands")
+        chassis.close()
 
     def finish(self, command_id):
         support.wait_for_status(command_id, CommandStatus.FINISHED, self.status_service, 90.0)
