@@ -56,6 +56,19 @@ Path asPiece(Path sent) {
   return sent;
 }
 
+/// Where the vehicle is there already it still gets a path, and not one of equal points, which has no direction.
+void giveLength(Path* path) {
+  constexpr double kLength = 0.01;  // [m]
+  if (path->back().s - path->front().s >= kLength) return;
+  path->resize(1);
+  ReferencePoint end = path->front();
+  end.x += kLength * std::cos(end.heading);
+  end.y += kLength * std::sin(end.heading);
+  end.s += kLength;
+  end.direction = path->front().direction = Direction::kForward;
+  path->push_back(end);
+}
+
 /// A cap of 0 would be taken for an order to stop, and the vehicle would wait there for ever.
 void requireMotion(const Path& path) {
   for (std::size_t i = 0; i < path.size(); ++i) {
@@ -120,7 +133,7 @@ void MotionFlow::assemble(double target_speed, bool begins_at_vehicle, const Can
     plan->path = join(asPiece(approach), plan->path);
     plan->index_shift = static_cast<std::ptrdiff_t>(plan->path.size()) - static_cast<std::ptrdiff_t>(planned);
   }
-  if (plan->path.size() == 1) plan->path.push_back(plan->path.front());  // the vehicle is there; still a path
+  giveLength(&plan->path);
   const ContextParams& params = context_.params();
   params.path_bounds.require(plan->path);
   requireMotion(plan->path);

@@ -10,6 +10,7 @@ import rostest
 import support
 from external_command.msg import CommandStatus, LaneFollowCommand, LaneSegment, PlanningCommand, Pose, RoutingResponse
 from external_command.srv import LaneFollow
+from vehicle import Vehicle
 
 # On main street, eastbound: the vehicle starts near its west end.
 EAST_END = Pose(x=300.0, y=195.0, heading=0.0, has_heading=True)
@@ -65,6 +66,18 @@ class LaneFollowTest(unittest.TestCase):
         self.assertAlmostEqual(response.distance, answer.report.route_length, places=3)
         self.assertTrue(response.road)
         support.wait_for_status(status.command_id, CommandStatus.FINISHED, deadline=60.0)
+
+    def test_has_arrived_at_once_where_the_vehicle_stands(self):
+        there = lane_follow(end_pose=BEYOND)
+        support.wait_for_status(there.status.command_id, CommandStatus.FINISHED, deadline=60.0)
+        x, y, heading = Vehicle().pose
+        again = lane_follow(end_pose=Pose(x=x, y=y, heading=heading, has_heading=True))
+        self.assertEqual(again.status.status, CommandStatus.RUNNING, support.describe(again.status))
+        points = self.wait_for_command(again.status.command_id).path.points
+        self.assertGreaterEqual(len(points), 2)
+        for before, after in zip(points, points[1:]):
+            self.assertGreater(math.hypot(after.x - before.x, after.y - before.y), 0.005)
+        support.wait_for_status(again.status.command_id, CommandStatus.FINISHED, deadline=60.0)
 
     def assert_is_a_path(self, points):
         self.assertGreater(len(points), 2)
