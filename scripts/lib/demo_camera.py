@@ -9,11 +9,13 @@ import rosgraph
 import rospy
 import yaml
 
+import demo_captions
 import demo_overlay
 from demo_stack import DemoError
 
 WIDTH, HEIGHT = 1600, 1000  # of rviz's window [pixels]
-FRAME = 120  # pixels of the window's height that show no map
+FRAME = 92  # pixels of the window's height that show no map
+SIDES = 20  # of its width
 MARGIN = 1.15
 START_TIMEOUT = 90.0  # [s]; drawing by software is slow
 FOLLOWING_SCALE = 12.0  # of a view that follows the vehicle [pixels/m]
@@ -25,6 +27,7 @@ class Camera:
         self.has_picture = False
         self.problem = "rviz was not started"
         self.overlay = None  # once open
+        self.captions = None  # of a view that stands still, once open
         self._stack = stack
         self._picture = picture
         self._display = {}
@@ -33,8 +36,10 @@ class Camera:
     def open(self, config, extent, path_length):
         """Starts rviz with the settings of file `config`, looking down on `extent` (min x, min y, max x, max y)."""
         view = looking_down_on(extent)
-        self._start(config, view)
         scale = view["Scale"]
+        self.captions = demo_captions.Captions(scale, view["X"] - 0.5 * (WIDTH - SIDES) / scale,
+                                               view["Y"] - 0.5 * (HEIGHT - FRAME) / scale)
+        self._start(config, view)
         self._enough_pixels = ENOUGH * path_length * demo_overlay.line_width(scale) * scale ** 2
 
     def follow(self, config):
@@ -52,8 +57,9 @@ class Camera:
         own_config = os.path.join(self._stack.log_dir, "demo.rviz")
         write_config(config, view, own_config)
         self.overlay = demo_overlay.Overlay(view["Scale"])
-        self._stack.spawn("rviz", ["rviz", "--display-config", own_config, "__ns:=/apollo"], QT_X11_NO_MITSHM="1",
-                          **self._display)
+        # Drawing by software takes whole cores, and plans have a time to be ready in.
+        self._stack.spawn("rviz", ["nice", "--adjustment=19", "rviz", "--display-config", own_config, "__ns:=/apollo"],
+                          QT_X11_NO_MITSHM="1", **self._display)
         self._stack.wait_for(self._listens_to_markers, "rviz", START_TIMEOUT, "rviz")
         time.sleep(3.0)  # until the map is drawn
 
@@ -112,16 +118,16 @@ def display_works():
 
 
 def looking_down_on(extent):
-    """The settings of a view that shows (min x, min y, max x, max y) [m]; its scale is in pixels/m."""
+    """The settings of a view that shows (min x, min y, max x, max y) [m] beside the legend; its scale is in pixels/m."""
     low_x, low_y, high_x, high_y = extent
-    scale = min(WIDTH / max(high_x - low_x, 20.0), (HEIGHT - FRAME) / max(high_y - low_y, 20.0)) / MARGIN
-    return {"Target Frame": "<Fixed Frame>", "X": float(low_x + high_x) / 2.0, "Y": float(low_y + high_y) / 2.0,
-            "Scale": float(scale)}
+    width, height = WIDTH - SIDES - demo_captions.STRIP, HEIGHT - FRAME
+    scale = min(width / max(high_x - low_x, 20.0), height / max(high_y - low_y, 20.0)) / MARGIN
+    return {"Target Frame": "<Fixed Frame>", "X": float((low_x + high_x - demo_captions.STRIP / scale) / 2.0),
+            "Y": float((low_y + high_y) / 2.0), "Scale": float(scale)}
 
 
 def write_config(source, view, target):
-    """A copy of an rviz configuration that looks straight down as `view` says, without side panels, in lines of a visible
-    width."""
+    """A copy of an rviz configuration that looks straight down as `view` says, without panels, in lines of a visible width."""
     with open(source, encoding="utf-8") as file:
         config = yaml.safe_load(file)
     current = config["Visualization Manager"]["Views"]["Current"]
@@ -131,11 +137,13 @@ def write_config(source, view, target):
     for display in displays:
         if display["Class"] == "rviz/Path":
             display["Line Width"] = float(demo_overlay.line_width(view["Scale"]))
-    displays.append({"Class": "rviz/MarkerArray", "Name": "Drive", "Enabled": True, "Value": True, "Namespaces": {},
-                     "Marker Topic": demo_overlay.TOPIC, "Queue Size": 10})
+    for name, topic in (("Drive", demo_overlay.TOPIC), ("Captions", demo_captions.TOPIC)):
+        displays.append({"Class": "rviz/MarkerArray", "Name": name, "Enabled": True, "Value": True, "Namespaces": {},
+                         "Marker Topic": topic, "Queue Size": 10})
     config["Visualization Manager"]["Global Options"]["Frame Rate"] = 10
-    geometry = config.setdefault("Window Geometry", {})
-    geometry.update({"Width": WIDTH, "Height": HEIGHT, "X": 0, "Y": 0, "Hide Left Dock": True, "Hide Right Dock": True})
+    config["Panels"] = []
+    config["Window Geometry"] = {"Width": WIDTH, "Height": HEIGHT, "X": 0, "Y": 0, "Hide Left Dock": True,
+                                 "Hide Right Dock": True}
     with open(target, "w", encoding="utf-8") as file:
         yaml.safe_dump(config, file)
 

@@ -25,16 +25,19 @@ CANDIDATES = 8  # places between all pairs of which a route is tried
 END_LENGTH = 15.0  # [m]
 MAX_END_CURVATURE = 0.1  # [1/m]
 PICTURE_AT = 0.3  # of the way left
+MAP_SHOWN = 1.5  # times as large as the route, at most, for all of the map to be shown
 
 
 class Drive:
     def __init__(self, stack):
-        self.extent = None  # of start, goal and route: (min x, min y, max x, max y) [m], once chosen
+        self.extent = None  # that shows start, goal and route: (min x, min y, max x, max y) [m], once chosen
         self.length = 0.0  # of the route [m], once chosen
+        self.lane_ids = []  # of the route, once chosen
         self.start = None  # where the vehicle was placed
         self.command_id = 0  # once sent
         self._stack = stack
         self._path = None
+        self._scene = {}  # what the gateway draws into rviz, by its namespace
         self._speed = 0.0
         self._origin = (0.0, 0.0)
 
@@ -51,6 +54,8 @@ class Drive:
         self._tf_listener = tf2_ros.TransformListener(self._tf_buffer)
         rospy.Subscriber(NAMESPACE + "canbus/chassis", Chassis, self._on_chassis)
         rospy.Subscriber(SERVICE + "path", Path, self._on_path)
+        rospy.Subscriber(SERVICE + "markers", MarkerArray, self._on_markers)
+        self._stack.wait_for(lambda: "center_lines" in self._scene, "the map as it is drawn", START_TIMEOUT)
 
     def choose(self, start, goal):
         """Start and goal poses in the map frame; a dry run has found a route between them.
@@ -67,7 +72,8 @@ class Drive:
                 raise DemoError(f"no route from --from to --to: {answer.status.message}")
         points = [(point.x, point.y) for point in answer.path.points] + [(start.x, start.y), (goal.x, goal.y)]
         self.length = answer.report.route_length
-        self.extent = (*numpy.min(points, axis=0), *numpy.max(points, axis=0))
+        self.lane_ids = answer.report.lane_ids
+        self.extent = with_map(bounds(points), bounds([(point.x, point.y) for point in self._scene["lanes"].points]))
         print(f"from {self._in_file(start)}, heading {start.heading:.3f}, to {self._in_file(goal)}: "
               f"{self.length:.0f} m over {len(answer.report.lane_ids)} lanes, "
               f"{answer.report.lane_changes} lane change(s)", flush=True)
@@ -99,11 +105,10 @@ class Drive:
 
     def _lane_points(self):
         """Points on the centre lines of the lanes to drive on, from the markers for rviz."""
-        markers = rospy.wait_for_message(SERVICE + "markers", MarkerArray, START_TIMEOUT).markers
-        centers = [marker for marker in markers if marker.ns == "center_lines"]
-        if not centers:
+        centers = self._scene["center_lines"]
+        if not centers.points:
             raise DemoError("the map has no lanes to drive on")
-        points = numpy.array([(point.x, point.y) for marker in centers for point in marker.points])
+        points = numpy.array([(point.x, point.y) for point in centers.points])
         return (points[0::2] + points[1::2]) / 2.0  # a marker is pairs of ends; a lane's own ends are ambiguous
 
     def _dry_run(self, start, goal):
@@ -141,6 +146,8 @@ class Drive:
         overlay = camera.overlay if camera else None
         if overlay:
             overlay.show_path(progress.points())
+            ids = rospy.wait_for_message(SERVICE + "map_ids", MarkerArray, START_TIMEOUT)
+            camera.captions.show(self._scene, ids.markers, self.lane_ids)
         late = PICTURE_AT * progress.left
         photographer = threading.Thread(target=camera.take if camera else lambda: None, daemon=True)  # nobody waits for it
         is_over = False
@@ -182,6 +189,9 @@ class Drive:
     def _on_chassis(self, chassis):
         self._speed = chassis.speed_mps
 
+    def _on_markers(self, array):
+        self._scene.update((marker.ns, marker) for marker in array.markers)
+
     def _on_path(self, path):
         if path.poses:  # an empty one follows when the command has ended
             self._path = path
@@ -216,6 +226,18 @@ class Progress:
 
     def seconds_standing(self):
         return time.monotonic() - self._moved
+
+
+def bounds(points):
+    """(min x, min y, max x, max y)"""
+    return (*numpy.min(points, axis=0), *numpy.max(points, axis=0))
+
+
+def with_map(route, whole_map):
+    """What a picture of the route shows: all of the map, where that is not much larger."""
+    size = max(route[2] - route[0], route[3] - route[1])
+    map_size = max(whole_map[2] - whole_map[0], whole_map[3] - whole_map[1])
+    return whole_map if map_size <= MAP_SHOWN * size else route
 
 
 def ends_straight(points):

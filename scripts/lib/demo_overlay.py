@@ -9,7 +9,7 @@ from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker, MarkerArray
 
 TOPIC = "/apollo/demo/markers"
-PATH_COLOUR, TRAIL_COLOUR, VEHICLE_COLOUR = (255, 170, 0), (70, 190, 255), (255, 255, 255)
+PATH_COLOUR, TRAIL_COLOUR, VEHICLE_COLOUR = (255, 170, 0), (255, 120, 200), (255, 255, 255)
 LINE_WIDTH = 0.8  # [m], at least
 LINE_PIXELS = 4.0  # at least
 VEHICLE_LENGTH = 5.0  # [m]; one that is drawn shorter than VEHICLE_PIXELS gets an arrow of that size
