@@ -171,7 +171,9 @@ void GatewayLink::stop() {
       is_answered ? take(asked, status) : fail(asked, asked.vehicle + "/external_command/action");
     };
   });
-  if (!is_begun) fail(asked, "a thread");
+  if (is_begun) return;
+  waiting_.erase(call);
+  fail(asked, "a thread");
 }
 
 template <class Service>
@@ -207,12 +209,14 @@ void GatewayLink::sendMotion(const std::string& name, Command command) {
   const bool is_dry_run = request.command.dry_run;
   const QString what = serviceWords(name) + (is_dry_run ? ", dry run" : "");
   const Answer asked = {vehicle_, name, what};
-  call<Service>(name, asked, request, [this, asked, is_dry_run](const typename Service::Response& response) {
+  const int connection = connection_;
+  call<Service>(name, asked, request, [this, asked, is_dry_run, connection](const typename Service::Response& response) {
     CommandStatus status = response.status;
     const std::string report = reportWords(response.report).toStdString();
     if (!report.empty()) status.message += (status.message.empty() ? "" : "; ") + report;
     take(asked, status);
-    if (is_dry_run && response.status.status != CommandStatus::ERROR) Q_EMIT pathPlanned(response.path);
+    const bool is_shown = is_dry_run && connection == connection_;
+    if (is_shown && response.status.status != CommandStatus::ERROR) Q_EMIT pathPlanned(response.path);
   });
 }
 
