@@ -3,23 +3,11 @@
 #include "external_command/core/text.h"
 #include "external_command/ros/diagnostics.h"
 #include "external_command/ros/process_context.h"
+#include "external_command/ros/status_name.h"
 
 namespace external_command {
 
 namespace {
-
-std::string nameOf(std::uint8_t status) {
-  switch (status) {
-    case CommandStatus::RUNNING:
-      return "RUNNING";
-    case CommandStatus::FINISHED:
-      return "FINISHED";
-    case CommandStatus::ERROR:
-      return "ERROR";
-    default:
-      return "UNKNOWN";
-  }
-}
 
 void tellPose(const VehiclePose& vehicle, Diagnostics::Status* status) {
   const std::optional<double> age = vehicle.age();
@@ -44,7 +32,7 @@ void tellLoad(const PlanningPool::Load& load, Diagnostics::Status* status) {
 void tellCommands(const CommandRegistry& registry, const RefusalCounts& refusals, Diagnostics::Status* status) {
   const std::optional<CommandStatus> newest = registry.newest();
   status->summary(Diagnostics::Status::OK, newest ? text(newest->service, " ", newest->command_id, ": ",
-                                                         nameOf(newest->status), ", ", newest->message)
+                                                         statusName(newest->status), ", ", newest->message)
                                                   : "no command has come yet");
   status->add("running", registry.running().size());
   for (std::size_t code = 1; code < RefusalCounts::kCodes; ++code) {

@@ -6,31 +6,14 @@
 
 #include "external_command/Chassis.h"
 #include "external_command/CommandStatus.h"
+#include "external_command/core/error.h"
+#include "external_command/ros/status_name.h"
 
 namespace external_command {
 
-QString statusWord(std::uint8_t status) {
-  switch (status) {
-    case CommandStatus::RUNNING:
-      return "RUNNING";
-    case CommandStatus::FINISHED:
-      return "FINISHED";
-    case CommandStatus::ERROR:
-      return "ERROR";
-    default:
-      return "UNKNOWN";
-  }
-}
+QString statusWord(std::uint8_t status) { return statusName(status); }
 
-QString codeWord(std::uint16_t code) {
-  static const char* const words[] = {
-      "OK",        "INVALID_REQUEST", "STALE_REQUEST",      "DUPLICATE_ID",   "UNKNOWN_ID", "NOT_READY",
-      "OFF_MAP",   "NO_ROUTE",        "START_BLOCKED",      "GOAL_BLOCKED",   "NO_PATH",    "PLANNING_TIMEOUT",
-      "CANCELLED", "SUPERSEDED",      "REFUSED_BY_VEHICLE", "INTERNAL_ERROR",
-  };
-  constexpr std::size_t count = sizeof(words) / sizeof(words[0]);
-  return code < count ? QString(words[code]) : QString("code %1").arg(code);
-}
+QString codeWord(std::uint16_t code) { return toString(static_cast<ErrorCode>(code)); }
 
 QString modeWords(std::uint8_t driving_mode) {
   switch (driving_mode) {

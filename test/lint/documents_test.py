@@ -49,6 +49,10 @@ def anchors(text):
 
 
 class DocumentsTest(unittest.TestCase):
+    def test_the_readme_leads_to_every_page(self):
+        linked = set(LINK.findall(document.section(read("README.md"), "Pages")))
+        self.assertEqual(linked, set(pages()) - {"README.md"})
+
     def test_every_error_code_is_explained_and_has_a_way_out(self):
         codes = constants("CommandStatus", "uint16")
         self.assertEqual(len(codes), 16)

@@ -28,7 +28,7 @@ TEST(Words, NameEveryCodeOfAStatus) {
   EXPECT_EQ(toText(codeWord(CommandStatus::NO_ROUTE)), "NO_ROUTE");
   EXPECT_EQ(toText(codeWord(CommandStatus::REFUSED_BY_VEHICLE)), "REFUSED_BY_VEHICLE");
   EXPECT_EQ(toText(codeWord(CommandStatus::INTERNAL_ERROR)), "INTERNAL_ERROR");
-  EXPECT_EQ(toText(codeWord(999)), "code 999");
+  EXPECT_EQ(toText(codeWord(999)), "UNKNOWN_CODE");
   EXPECT_EQ(toText(statusWord(CommandStatus::RUNNING)), "RUNNING");
   EXPECT_EQ(toText(statusWord(77)), "UNKNOWN");
 }
