@@ -13,6 +13,8 @@ namespace external_command {
 
 namespace {
 
+constexpr std::size_t kMostUnshown = 16;
+
 std::string uniqueName() {
   static std::atomic<int> gates{0};
   return text(getpid(), "-", ros::WallTime::now().toNSec(), "-", ++gates);
@@ -63,6 +65,8 @@ std::shared_ptr<const SentMotion> CommandGate::commit(const Ticket& ticket, std:
   ticket.cancelToken().throwIfCancelled();
   publish();
   last_motion_ = ticket.command_.serial;
+  unshown_.push_back(motion);
+  if (unshown_.size() > kMostUnshown) unshown_.pop_front();
   motion_.swap(motion);
   return motion;
 }
@@ -73,7 +77,7 @@ std::shared_ptr<const SentMotion> CommandGate::stop(bool withdraws, const std::f
   last_stop_ = ros::WallTime::now();
   planning_.cancel();
   if (publish) publish();
-  if (withdraws && motion_ && motion_->topics) motion_->topics->withdraw();
+  if (withdraws) withdrawLocked();
   return motion_;
 }
 
@@ -83,20 +87,38 @@ void CommandGate::cancel(CommandSerial serial, const std::function<bool()>& end,
   if (!end() || !motion_ || motion_->command.serial != serial) return;
   const ros::Time now = ros::Time::now();  // simulated time may have been set back
   clear(newest_.serial == serial ? now : std::min(now, newest_began_));
-  if (motion_->topics) motion_->topics->withdraw();
+  withdrawLocked();
   motion_.reset();
+}
+
+/// What came before the motion under way must not be shown behind its withdrawal.
+void CommandGate::withdrawLocked() {
+  unshown_.clear();
+  if (motion_ && motion_->topics) motion_->topics->withdraw();
 }
 
 void CommandGate::retire(CommandSerial serial) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!motion_ || motion_->command.serial != serial) return;
-  if (motion_->topics) motion_->topics->withdraw();
+  withdrawLocked();
   motion_.reset();
 }
 
 void CommandGate::showAgain(CommandSerial serial, const Path& rest) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (motion_ && motion_->command.serial == serial && motion_->topics) motion_->topics->showAgain(rest);
+}
+
+std::shared_ptr<const SentMotion> CommandGate::unshown() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return unshown_.empty() ? nullptr : unshown_.front();
+}
+
+void CommandGate::show(const SentMotion& motion, const std::function<void()>& publish) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (unshown_.empty() || unshown_.front().get() != &motion) return;
+  unshown_.pop_front();
+  publish();
 }
 
 CommandSerial CommandGate::lastMotion() const {

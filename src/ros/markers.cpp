@@ -103,9 +103,9 @@ MarkerArray commandMarkers(const CommandScene& scene, const HdMap* map, const Ve
     }
   }
   Marker path = marker(frame, "path", Marker::LINE_LIST, 0.6, paint::kForward);
-  addPath(scene.path, &path);
+  if (scene.path) addPath(*scene.path, &path);
   Marker footprints = marker(frame, "footprints", Marker::LINE_LIST, 0.04, paint::kFootprint);
-  if (scene.with_footprints) addFootprints(scene.path, vehicle, &footprints);
+  if (scene.path && scene.with_footprints) addFootprints(*scene.path, vehicle, &footprints);
   Marker way_points = marker(frame, "way_points", Marker::SPHERE_LIST, 2.5, paint::kWayPoint);
   for (const Point2d& point : scene.way_points) way_points.points.push_back(raised(point, kPoseHeight));
   Marker regions = marker(frame, "region", Marker::LINE_LIST, 0.15, paint::kArea);
@@ -124,19 +124,6 @@ MarkerArray commandMarkers(const CommandScene& scene, const HdMap* map, const Ve
   array.markers.push_back(arrow(frame, "start", scene.start, arrow_length, paint::kForward));
   array.markers.push_back(arrow(frame, "goal", scene.goal, arrow_length, paint::kConflict));
   return array;
-}
-
-nav_msgs::Path toNavPath(const Path& path, const std::string& frame) {
-  nav_msgs::Path msg;
-  msg.header.frame_id = frame;
-  msg.header.stamp = ros::Time::now();
-  msg.poses.resize(path.size());
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    msg.poses[i].header = msg.header;
-    msg.poses[i].pose.position = raised(path[i].pose().position(), 0.0);
-    msg.poses[i].pose.orientation = rotation(path[i].heading);
-  }
-  return msg;
 }
 
 }  // namespace external_command

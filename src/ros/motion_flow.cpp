@@ -14,7 +14,7 @@
 #include "external_command/core/text.h"
 #include "external_command/ros/conversions.h"
 #include "external_command/ros/log_lane.h"
-#include "external_command/ros/prepared_message.h"
+#include "external_command/ros/motion_bytes.h"
 #include "external_command/ros/process_context.h"
 #include "external_command/ros/status.h"
 
@@ -167,7 +167,6 @@ void MotionFlow::complete(std::int64_t command_id, double target_speed, MotionPl
   command.command_id = command_id;
   command.is_motion_command = true;
   command.target_speed = target_speed;
-  command.path = toMsg(plan->path);
   command.path.header = command.header;
   command.lane_follow_command.header = command.header;
   plan->report.path_length = plan->path.back().s;
@@ -175,18 +174,19 @@ void MotionFlow::complete(std::int64_t command_id, double target_speed, MotionPl
   plan->report.gear_changes = gearChanges(plan->path);
 }
 
+/// A planner that follows the path gets it like the command; everybody else sees it later.
 void MotionFlow::send(const CommandGate::Ticket& ticket, MotionPlan&& plan) const {
-  const PlanningCommand& command = plan.command;
+  const auto path = std::make_shared<const Path>(std::move(plan.path));
+  const PreparedBytes command = bytesOf(plan.command, *path);
   std::vector<PreparedMessage> messages;
   for (const ros::Publisher& publisher : publishers_.commands) messages.emplace_back(publisher, command);
   messages.emplace_back(publishers_.history, command);
-  if (command.has_lane_follow_command) messages.emplace_back(publishers_.routing, command.lane_follow_command);
-  messages.emplace_back(publishers_.path, toNavPath(plan.path, command.header.frame_id));
+  const bool has_path = context_.params().planner_follows_path;
+  if (has_path) messages.emplace_back(publishers_.path, navPathBytesOf(*path, plan.command.header));
 
   const AdmittedCommand& sent = ticket.command();
-  const auto motion =
-      std::make_shared<const SentMotion>(SentMotion{sent, std::make_shared<const Path>(plan.path), plan.index_shift,
-                                                    std::make_shared<MotionTopics>(publishers_, command)});
+  auto topics = std::make_shared<MotionTopics>(publishers_, std::move(plan.command), has_path ? nullptr : path);
+  const auto motion = std::make_shared<const SentMotion>(SentMotion{sent, path, plan.index_shift, std::move(topics)});
 
   const std::lock_guard<std::mutex> in_order(context_.sendingMutex());
   const auto replaced = context_.gate().commit(ticket, motion, [&] {
@@ -206,8 +206,9 @@ void MotionFlow::send(const CommandGate::Ticket& ticket, MotionPlan&& plan) cons
              text("command ", sent.id, " was sent, but what follows from that failed: ", error.what()));
   }
   plan.scene.route = std::move(plan.route);
-  plan.scene.path = std::move(plan.path);
+  plan.scene.path = path;
   context_.display().show(std::move(plan.scene));
+  context_.showSentLater();
 }
 
 std::string MotionFlow::plannerWords() const {

@@ -212,6 +212,20 @@ void ProcessContext::takeReport(CommandStatus report, const std::string& process
                 static_cast<int>(report.status), "; a planner reports RUNNING (1), FINISHED (2) or ERROR (3)"));
 }
 
+void ProcessContext::showSentLater() {
+  housekeeping_.post([this] { showSent(); });
+}
+
+void ProcessContext::showSent() {
+  while (const auto motion = gate_.unshown()) {
+    const std::vector<PreparedMessage> messages =
+        motion->topics ? motion->topics->view() : std::vector<PreparedMessage>();
+    gate_.show(*motion, [&] {
+      for (const PreparedMessage& message : messages) message.send();
+    });
+  }
+}
+
 void ProcessContext::showMotionAgain() {
   const auto motion = gate_.motion();
   if (motion) gate_.showAgain(motion->command.serial, motion_watch_.restOf(*motion));

@@ -66,6 +66,16 @@ double Corridor::narrowest(const CoursePoint& place) const {
   return believed(std::min(lane.leftWidthAt(place.lane.s), lane.rightWidthAt(place.lane.s)));
 }
 
+double Corridor::narrowestOf(LaneIndex index) const {
+  const Lane& lane = map_.lane(index);
+  if (lane.left_widths.empty() || lane.right_widths.empty()) return kNarrowest;
+  double least = kWidest;
+  for (const auto* widths : {&lane.left_widths, &lane.right_widths}) {
+    for (const WidthSample& sample : *widths) least = std::min(least, sample.width);
+  }
+  return believed(least);
+}
+
 double Corridor::frontExcess(const CoursePoint& place, double kappa) const {
   const Lane& lane = map_.lane(place.lane.lane);
   const double front = vehicle_.wheelbase + vehicle_.front_overhang;

@@ -19,6 +19,9 @@ class Corridor {
   /// From the centre line to the nearer boundary at `place` [m].
   double narrowest(const CoursePoint& place) const;
 
+  /// What narrowest() is at least, all along `lane` [m]. O(n)
+  double narrowestOf(LaneIndex lane) const;
+
   /// By how much the vehicle's front leaves the lane at `place` on the outer side of a bend of `kappa` [1/m] along the
   /// centre line; negative where there is room left [m].
   double frontExcess(const CoursePoint& place, double kappa) const;

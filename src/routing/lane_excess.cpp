@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace external_command {
 
@@ -24,12 +25,13 @@ class ExcessCheck {
         front_(vehicle.wheelbase + vehicle.front_overhang) {}
 
   /// By how much the vehicle leaves its lanes at point `i` of the path; 0 where it does not [m].
-  double at(std::size_t i) const {
+  double at(std::size_t i) {
     const ReferencePoint& point = path_[i];
-    const CoursePoint& place = course_[placeOf(i, 0.0)];
+    const CoursePoint& place = course_[layout_.places[layout_.first + i]];
     const double offset = (point.pose().position() - place.position).norm();
     const double swing = offset + 0.5 * std::abs(point.kappa) * front_ * front_;
-    if (swing + vehicle_.width / 2.0 <= corridor_.narrowest(place) + kTold) return 0.0;
+    const double needed = swing + vehicle_.width / 2.0 - kTold;
+    if (needed <= leastRoomOn(place.lane.lane) || needed <= corridor_.narrowest(place)) return 0.0;
     return std::max({excess(i, front_), excess(i, 0.0), excess(i, -vehicle_.rear_overhang)});
   }
 
@@ -41,6 +43,11 @@ class ExcessCheck {
   }
 
  private:
+  double leastRoomOn(LaneIndex lane) {
+    if (lane != known_lane_) least_room_ = corridor_.narrowestOf(known_lane_ = lane);
+    return least_room_;
+  }
+
   /// Of both ends of the line across the vehicle that is `ahead` [m] of point `i`.
   double excess(std::size_t i, double ahead) const {
     const std::size_t there = placeOf(i, ahead);
@@ -67,6 +74,8 @@ class ExcessCheck {
   const CourseLayout& layout_;
   const Path& path_;
   const double step_, front_;
+  LaneIndex known_lane_ = std::numeric_limits<LaneIndex>::max();
+  double least_room_ = 0.0;  // on that lane [m]
 };
 
 }  // namespace
@@ -74,11 +83,11 @@ class ExcessCheck {
 std::vector<LeftLane> leftLanes(const Corridor& corridor, const VehicleParams& vehicle,
                                 const std::vector<CoursePoint>& course, const std::vector<Point2d>& wished,
                                 const CourseLayout& layout, const Path& path) {
-  const ExcessCheck check(corridor, vehicle, course, layout, path);
+  ExcessCheck check(corridor, vehicle, course, layout, path);
   std::vector<LeftLane> left;
   bool is_out = false;
   for (std::size_t i = 0; i < path.size(); ++i) {
-    const std::size_t place = check.placeOf(i, 0.0);
+    const std::size_t place = layout.places[layout.first + i];
     const bool merges = (wished[place] - course[place].position).norm() > kMerging;
     const double excess = merges ? 0.0 : check.at(i);
     const bool was_out = is_out;

@@ -29,9 +29,14 @@ double beyond(double value, double low, double high) {
 
 }  // namespace
 
+PathFit::End::End(double metres_ahead, double step)
+    : ahead(metres_ahead), places(ahead / step), abreast(static_cast<std::ptrdiff_t>(std::floor(places + 0.5))) {}
+
 PathFit::PathFit(std::vector<FitPoint> places, const FitParams& params)
     : places_(std::move(places)),
       params_(params),
+      front_(params.front, params.step),
+      rear_(-params.rear, params.step),
       offsets_(places_.size(), 0.0),
       step_(places_.size(), 0.0),
       points_(places_.size()),
@@ -60,14 +65,14 @@ void PathFit::measureBends() {
   }
 }
 
-/// The middle of the vehicle's end that is `ahead` [m] of place `i`, beyond the limits where it is.
+/// The middle of the vehicle's end at place `i`, beyond the limits where it is.
 template <class Visitor>
-void PathFit::visitBody(std::size_t i, double ahead, Visitor&& visit) const {
-  const double stations = static_cast<double>(i) + ahead / params_.step;
-  if (stations < 0.0 || stations > static_cast<double>(places_.size() - 1)) return;
-  const FitPoint& there = places_[static_cast<std::size_t>(std::lround(stations))];
+void PathFit::visitBody(std::size_t i, const End& end, Visitor&& visit) const {
+  const double station = static_cast<double>(i) + end.places;
+  if (station < 0.0 || station > static_cast<double>(places_.size() - 1)) return;
+  const FitPoint& there = places_[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + end.abreast)];
   const Point2d way = points_[i + 1] - points_[i - 1];
-  const double lever = ahead / std::max(way.norm(), 1e-6);
+  const double lever = end.ahead / std::max(way.norm(), 1e-6);
   const double offset = (points_[i] + lever * way - there.base).dot(there.normal);
   const double excess = beyond(offset, there.low, there.high);
   if (excess == 0.0) return;
@@ -91,8 +96,8 @@ void PathFit::visitResiduals(Visitor&& visit) const {
     if (const double excess = beyond(bend.kappa, -params_.max_kappa, params_.max_kappa)) {
       visit(kCurvature, excess, i - 1, bend.slopes);
     }
-    visitBody(i, params_.front, visit);
-    if (params_.rear > kShortRear) visitBody(i, -params_.rear, visit);
+    visitBody(i, front_, visit);
+    if (params_.rear > kShortRear) visitBody(i, rear_, visit);
     if (i + 2 >= places_.size()) continue;
     const Bend& next = bends_[i + 1];
     const std::array<double, 4> slopes = {
@@ -106,23 +111,23 @@ void PathFit::visitResiduals(Visitor&& visit) const {
   }
 }
 
-double PathFit::cost() const {
-  double sum = 0.0;
-  visitResiduals([&](double weight, double residual, std::size_t /*first*/, const auto& /*slopes*/) {
-    sum += weight * residual * residual;
-  });
-  return sum;
-}
-
-void PathFit::buildSystem() {
+/// At the places as they lie now. @return  the cost there
+double PathFit::buildSystem() {
   std::fill(rows_.begin(), rows_.end(), Row{});
   std::fill(step_.begin(), step_.end(), 0.0);
+  double cost = 0.0;
   visitResiduals([&](double weight, double residual, std::size_t first, const auto& slopes) {
+    cost += weight * residual * residual;
     for (std::size_t k = 0; k < slopes.size(); ++k) {
       step_[first + k] -= weight * slopes[k] * residual;
       for (std::size_t m = 0; m <= k; ++m) rows_[first + k][m] += weight * slopes[k] * slopes[k - m];
     }
   });
+  return cost;
+}
+
+/// Keeps the system regular, and the fixed places where they are.
+void PathFit::hold() {
   for (std::size_t i = 0; i < places_.size(); ++i) {
     rows_[i][0] += kDamping;
     if (!places_[i].fixed) continue;
@@ -152,21 +157,21 @@ void PathFit::solve() {
 }
 
 void PathFit::run(const CancelToken& cancel) {
-  double now = cost();
+  double now = buildSystem();
   for (int round = 0; round < kSteps; ++round) {
     cancel.throwIfCancelled();
-    buildSystem();
+    hold();
     solve();
     double largest = 0.0;
     for (const double move : step_) largest = std::max(largest, std::abs(move));
     if (!std::isfinite(largest)) break;
     double share = std::min(1.0, kLargestMove / std::max(largest, 1e-9));
-    const std::vector<double> before = offsets_;
+    const std::vector<double> before = offsets_, step = step_;
     bool is_better = false;
     for (int halving = 0; halving < kHalvings && !is_better; ++halving, share *= 0.5) {
-      for (std::size_t i = 0; i < offsets_.size(); ++i) offsets_[i] = before[i] + share * step_[i];
+      for (std::size_t i = 0; i < offsets_.size(); ++i) offsets_[i] = before[i] + share * step[i];
       place(offsets_);
-      const double then = cost();
+      const double then = buildSystem();
       is_better = then < now;
       if (is_better) now = then;
     }

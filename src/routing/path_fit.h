@@ -54,18 +54,27 @@ class PathFit {
     std::array<double, 3> slopes{};
   };
 
+  /// One end of the vehicle: how far ahead of the reference point it is.
+  struct End {
+    End(double metres_ahead, double step);
+    double ahead;            ///< [m]
+    double places;           ///< the same in places
+    std::ptrdiff_t abreast;  ///< to the nearest place
+  };
+
   void place(const std::vector<double>& offsets);
   void measureBends();
-  double cost() const;
-  void buildSystem();
+  double buildSystem();
+  void hold();
   void solve();
   template <class Visitor>
   void visitResiduals(Visitor&& visit) const;
   template <class Visitor>
-  void visitBody(std::size_t i, double ahead, Visitor&& visit) const;
+  void visitBody(std::size_t i, const End& end, Visitor&& visit) const;
 
   std::vector<FitPoint> places_;
   FitParams params_;
+  End front_, rear_;
   std::vector<double> offsets_, step_;
   std::vector<Point2d> points_;
   std::vector<Bend> bends_;

@@ -47,9 +47,36 @@ Path standingPath(const HdMap& map, const Route& route, const std::optional<Pose
   return path;
 }
 
+/// The headings of directions that turn little from one to the next, for less than an arc tangent each.
+class Headings {
+ public:
+  double next(const Point2d& direction) {
+    const double along = last_.dot(direction), across = cross(last_, direction);
+    last_ = direction;
+    if (++since_exact_ > kMostInRow || !(std::abs(across) < kSmallTangent * along)) {
+      since_exact_ = 0;
+      return heading_ = headingOf(direction);
+    }
+    const double t = across / along, tt = t * t;
+    heading_ += t * (1.0 - tt * (1.0 / 3 - tt * (1.0 / 5 - tt * (1.0 / 7 - tt * (1.0 / 9 - tt / 11)))));
+    if (std::abs(heading_) > kNearlyBack) heading_ = headingOf(direction);
+    return heading_;
+  }
+
+ private:
+  static constexpr double kSmallTangent = 0.1;  // up to which the series is exact to 1e-14
+  static constexpr double kNearlyBack = 3.14;   // the sign is to be that of the direction itself [rad]
+  static constexpr int kMostInRow = 64;
+
+  Point2d last_ = Point2d::Zero();
+  double heading_ = 0.0;
+  int since_exact_ = 0;
+};
+
 /// The path through points[first] ... points[last]; the points beyond serve as neighbours.
 Path pathThrough(const std::vector<Point2d>& points, std::size_t first, std::size_t last) {
   Path path(last - first + 1);
+  Headings headings;
   for (std::size_t i = first; i <= last; ++i) {
     // The parabola through three points; at the ends, through the nearest three.
     const std::size_t middle = std::clamp<std::size_t>(i, 1, points.size() - 2);
@@ -60,7 +87,7 @@ Path pathThrough(const std::vector<Point2d>& points, std::size_t first, std::siz
     ReferencePoint& point = path[i - first];
     point.x = points[i].x();
     point.y = points[i].y();
-    point.heading = headingOf(slope);
+    point.heading = headings.next(slope);
     point.kappa = cross(slope, bend) / (squared * std::sqrt(squared));
     if (i == first) continue;
     // As setArcLengths() would have it, but for a fraction of the time: arc over chord is 1 + (turn / 2)^2 / 6 + ...

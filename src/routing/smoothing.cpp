@@ -82,13 +82,18 @@ void smooth(double scale, std::size_t first, std::size_t last, std::vector<Point
   const Point2d begin = p[first], end = p[last];
   for (Point2d& point : p) point -= begin;  // map coordinates would eat the digits
   p[last] *= system.held();
-  for (std::size_t i = 1; i < count; ++i) {
-    for (std::size_t k = 1; k <= std::min(i, kBand); ++k) p[i] -= rows[i].left[k - 1] * p[i - k];
-  }
+  // What is known longest is taken off first: each point waits for one step of its neighbour's, not for three.
+  const auto forward = [&](std::size_t i, std::size_t band) {
+    for (std::size_t k = band; k >= 1; --k) p[i] -= rows[i].left[k - 1] * p[i - k];
+  };
+  const auto backward = [&](std::size_t i, std::size_t band) {
+    for (std::size_t k = band; k >= 1; --k) p[i] -= rows[i + k].left[k - 1] * p[i + k];
+  };
+  for (std::size_t i = 1; i < kBand; ++i) forward(i, i);
+  for (std::size_t i = kBand; i < count; ++i) forward(i, kBand);
   for (std::size_t i = 0; i < count; ++i) p[i] /= rows[i].diagonal;
-  for (std::size_t i = count - 1; i-- > 0;) {
-    for (std::size_t k = 1; k <= std::min(count - 1 - i, kBand); ++k) p[i] -= rows[i + k].left[k - 1] * p[i + k];
-  }
+  for (std::size_t k = 1; k < kBand; ++k) backward(count - 1 - k, k);
+  for (std::size_t i = count - kBand; i-- > 0;) backward(i, kBand);
   for (Point2d& point : p) point += begin;
   p[first] = begin;
   p[last] = end;

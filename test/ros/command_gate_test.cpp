@@ -5,6 +5,7 @@
 #include <ros/time.h>
 
 #include <optional>
+#include <vector>
 
 namespace external_command {
 namespace {
@@ -32,6 +33,13 @@ class Gate : public testing::Test {
   }
 
   std::int64_t idUnderWay() const { return gate_.motion() ? gate_.motion()->command.id : 0; }
+
+  /// The ids of what is shown, in that order.
+  std::vector<std::int64_t> showAll() {
+    std::vector<std::int64_t> shown;
+    while (const auto motion = gate_.unshown()) gate_.show(*motion, [&] { shown.push_back(motion->command.id); });
+    return shown;
+  }
 
   CommandGate gate_;
   CommandSerial serial_ = 0;
@@ -163,6 +171,56 @@ TEST_F(Gate, KnowsByTheTimeOfDayWhetherItWasStopped) {
   gate_.stop(true, {});
   EXPECT_TRUE(gate_.wasStoppedSince(before));
   EXPECT_FALSE(gate_.wasStoppedSince(ros::WallTime::now() + ros::WallDuration(1.0)));
+}
+
+TEST_F(Gate, ShowsWhatWasSentOnceAndInOrder) {
+  send(begin(7));
+  send(begin(8));
+  EXPECT_EQ(showAll(), (std::vector<std::int64_t>{7, 8}));
+  EXPECT_TRUE(showAll().empty());
+}
+
+TEST_F(Gate, ShowsTheNewestWhereManyWereSentMeanwhile) {
+  for (std::int64_t id = 1; id <= 100; ++id) send(begin(id));
+  const std::vector<std::int64_t> shown = showAll();
+  EXPECT_EQ(shown.size(), 16u);
+  EXPECT_EQ(shown.back(), 100);
+}
+
+TEST_F(Gate, ShowsNothingBehindAStopOfWhatWasSentBeforeIt) {
+  send(begin(7));
+  send(begin(8));
+  gate_.stop(true, {});
+  EXPECT_TRUE(showAll().empty());
+}
+
+TEST_F(Gate, ShowsNothingOfAMotionThatHasEnded) {
+  send(begin(7));
+  gate_.retire(gate_.motion()->command.serial);
+  EXPECT_TRUE(showAll().empty());
+  send(begin(8));
+  cancel(gate_.motion()->command.serial);
+  EXPECT_TRUE(showAll().empty());
+}
+
+TEST_F(Gate, DoesNotShowWhatAStopOvertook) {
+  send(begin(7));
+  const auto motion = gate_.unshown();
+  gate_.stop(true, {});
+  gate_.show(*motion, [] { FAIL() << "it is withdrawn"; });
+}
+
+TEST_F(Gate, ShowsWhatIsSentAfterAStop) {
+  send(begin(7));
+  gate_.stop(true, {});
+  send(begin(8));
+  EXPECT_EQ(showAll(), (std::vector<std::int64_t>{8}));
+}
+
+TEST_F(Gate, ShowsAMotionThatGoesOnWhenThePlanningIsStopped) {
+  send(begin(7));
+  gate_.stop(false, {});
+  EXPECT_EQ(showAll(), (std::vector<std::int64_t>{7}));
 }
 
 TEST_F(Gate, PublishesTheStopItself) {

@@ -28,7 +28,7 @@ Path line(std::size_t count, double turn, Direction direction = Direction::kForw
 
 visualization_msgs::Marker drawn(const Path& path) {
   CommandScene scene;
-  scene.path = path;
+  scene.path = std::make_shared<const Path>(path);
   for (const auto& marker : commandMarkers(scene, nullptr, VehicleParams(), "map").markers) {
     if (marker.ns == "path") return marker;
   }

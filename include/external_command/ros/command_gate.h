@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -96,6 +97,13 @@ class CommandGate {
   /// Shows what is left of the motion `serial` again, where a stop withdrew it and it is under way still.
   void showAgain(CommandSerial serial, const Path& rest);
 
+  /// The oldest motion that was sent, and of which no more was shown yet than the planning module needs; nullptr where
+  /// there is none. Of more than 16 the oldest are left out, and all of them where a motion is withdrawn.
+  std::shared_ptr<const SentMotion> unshown() const;
+
+  /// Calls `publish`, unless `motion` is no longer what unshown() returns.
+  void show(const SentMotion& motion, const std::function<void()>& publish);
+
   /// The motion under way: sent, and not retired since. May be nullptr.
   std::shared_ptr<const SentMotion> motion() const;
 
@@ -104,6 +112,7 @@ class CommandGate {
 
  private:
   void requireNewestLocked(const AdmittedCommand& command) const;
+  void withdrawLocked();
 
   const std::string name_;
   mutable std::mutex mutex_;
@@ -114,6 +123,7 @@ class CommandGate {
   ros::Time newest_began_;     ///< no motion of it has an earlier stamp
   CancelSource planning_;      ///< raises the newest ticket's token
   std::shared_ptr<const SentMotion> motion_;
+  std::deque<std::shared_ptr<const SentMotion>> unshown_;
   CommandSerial last_motion_ = 0;
 };
 

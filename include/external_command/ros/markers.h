@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <nav_msgs/Path.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,7 +16,7 @@ namespace external_command {
 /// What a command has to show; all in the map frame [m, rad]. Empty parts are not drawn.
 struct CommandScene {
   std::optional<Route> route;
-  Path path;
+  std::shared_ptr<const Path> path;  ///< nullptr: none
   std::optional<Pose2d> start;
   std::vector<Point2d> way_points;
   std::optional<Pose2d> goal;
@@ -36,8 +36,5 @@ visualization_msgs::MarkerArray vehicleMarkers(const VehicleParams& vehicle, con
 /// @param map  that of the scene's route; may be nullptr where it has none.
 visualization_msgs::MarkerArray commandMarkers(const CommandScene& scene, const HdMap* map,
                                                const VehicleParams& vehicle, const std::string& frame);
-
-/// The path for ordinary ROS controllers and rviz.
-nav_msgs::Path toNavPath(const Path& path, const std::string& frame);
 
 }  // namespace external_command

@@ -107,7 +107,8 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
       flow_->complete(command.command_id, speed, &plan);
     });
     takeReport(begin, &plan, response);
-    response->path = std::move(plan.command.path);
+    response->path = toMsg(plan.path);
+    response->path.header = plan.command.path.header;
     return makeStatus(command.command_id, CommandStatus::FINISHED, ErrorCode::kOk, "dry run: nothing was sent");
   }
 

@@ -20,7 +20,7 @@ struct MotionPlan {
   PlanStart start;  ///< where it begins, if it begins at the vehicle
   std::optional<Route> route;
   Path path;  ///< the route's reference path, then the planned manoeuvre; speeds are caps until it is complete
-  PlanningCommand command;  ///< what the planning module gets; path and header are filled in at the end
+  PlanningCommand command;  ///< what the planning module gets, but for the path; the headers are filled in at the end
   PlanReport report;
   CommandScene scene;  ///< what rviz shows
 

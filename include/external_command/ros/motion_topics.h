@@ -3,13 +3,14 @@
 
 #include <ros/publisher.h>
 
+#include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "external_command/PlanningCommand.h"
 #include "external_command/RoutingResponse.h"
 #include "external_command/core/path.h"
+#include "external_command/ros/prepared_message.h"
 
 namespace external_command {
 
@@ -19,11 +20,16 @@ struct MotionPublishers {
   ros::Publisher history, routing, path;
 };
 
-/// What the topics hold of one motion command for those who subscribe later. Not thread-safe: the gate guards it.
+/// What the topics hold of one motion command for those who subscribe later. Not thread-safe, but for what is const: the
+/// gate guards it.
 class MotionTopics {
  public:
-  /// @param command  as it was sent.
-  MotionTopics(MotionPublishers publishers, const PlanningCommand& command);
+  /// @param command  as it was sent; its path may be left out.
+  /// @param path     what is left for view() to show as path; nullptr where it was sent already.
+  MotionTopics(MotionPublishers publishers, PlanningCommand&& command, std::shared_ptr<const Path> path);
+
+  /// What follows a command that was sent: its route, and its path for ordinary ROS controllers and rviz.
+  std::vector<PreparedMessage> view() const;
 
   /// Replaces command, path and route by ones that nobody drives. Does so once.
   void withdraw();
@@ -34,7 +40,8 @@ class MotionTopics {
  private:
   const MotionPublishers publishers_;
   const std::int64_t command_id_;
-  const std::string frame_;
+  const std_msgs::Header header_;
+  const std::shared_ptr<const Path> path_;
   const std::optional<RoutingResponse> route_;
   bool is_withdrawn_ = false;
 };

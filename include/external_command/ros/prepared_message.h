@@ -6,7 +6,7 @@
 
 namespace external_command {
 
-/// Bytes of a message of any type, which roscpp publishes as they are.
+/// Bytes of a message of any type, which roscpp publishes as they are. Copies share them.
 struct PreparedBytes {
   ros::SerializedMessage message;
 };
@@ -17,6 +17,8 @@ class PreparedMessage {
   template <class Message>
   PreparedMessage(const ros::Publisher& publisher, const Message& message)
       : publisher_(publisher), bytes_{ros::serialization::serializeMessage(message)} {}
+
+  PreparedMessage(const ros::Publisher& publisher, const PreparedBytes& bytes) : publisher_(publisher), bytes_(bytes) {}
 
   void send() const;
 

@@ -126,6 +126,10 @@ class ProcessContext {
   /// Held from the commit of a motion until everyone knows of it. A stop does not take it.
   std::mutex& sendingMutex() { return sending_mutex_; }
 
+  /// Shows route and path of what was sent, behind the answer and in the order of sending, on the housekeeping lane. A
+  /// stop does not wait for it.
+  void showSentLater();
+
   /// Puts route and path of the motion under way back onto their topics, from where the vehicle has come: it goes on
   /// after a stop. What the planning module got is not sent once more.
   void showMotionAgain();
@@ -167,6 +171,7 @@ class ProcessContext {
 
  private:
   std::vector<ros::Publisher> configuredPads();
+  void showSent();
 
   struct Shared {
     ros::Publisher publisher;
