@@ -132,6 +132,7 @@ class Drive:
             return position is not None and math.hypot(position[0] - pose.x, position[1] - pose.y) < 0.5
         self._stack.wait_for(has_arrived, "the simulated vehicle at its start", START_TIMEOUT)
         publisher.unregister()
+        self._stack.wait_for(lambda: not self._client.unmet("lane_follow"), "the gateway to be ready", START_TIMEOUT)
 
     def go(self, goal, camera):
         """Drives to `goal`; `camera`, where there is one, takes its picture on the way. Returns whether the command has
