@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "external_command/core/error.h"
+#include "external_command/core/obstacle_polygon.h"
 #include "files.h"
 #include "json_fields.h"
 
@@ -18,7 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kBestKnown = "best_known.json";
-constexpr double kThinnest = 1e-3;  ///< half the width given to an obstacle that has none [m]
 
 /// Andrew's monotone chain.
 std::vector<Point2d> convexHull(std::vector<Point2d> points) {
@@ -42,15 +42,9 @@ std::vector<Point2d> convexHull(std::vector<Point2d> points) {
 
 Polygon obstacleOf(const std::vector<Point2d>& points, const std::string& name) {
   try {
-    return Polygon(points, name);
+    return obstaclePolygon(points, name);
   } catch (const InvalidRequest&) {
-    std::vector<Point2d> thickened;
-    for (const Point2d& point : points) {
-      for (const double dx : {-kThinnest, kThinnest}) {
-        for (const double dy : {-kThinnest, kThinnest}) thickened.emplace_back(point + Point2d(dx, dy));
-      }
-    }
-    return Polygon(convexHull(thickened), name);
+    return Polygon(convexHull(points), name);
   }
 }
 

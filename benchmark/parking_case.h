@@ -23,8 +23,8 @@ struct ParkingCase {
 
 /// A JSON object with `name`, `vehicle` {wheelbase, width, front_overhang, rear_overhang, min_turning_radius or
 /// max_steer}, `start` and `goal` [x, y, theta] of the rear-axle centre, `bounds` [xmin, ymin, xmax, ymax] in which
-/// that stays, and `obstacles` [[[x, y], ...], ...]. An obstacle that is no simple polygon is replaced by its convex
-/// hull.
+/// that stays, and `obstacles` [[[x, y], ...], ...]. A point or a line is an obstacle too, see obstaclePolygon(); what
+/// crosses itself is replaced by its convex hull.
 /// @throws std::runtime_error  the file cannot be read; the text names file and field.
 ParkingCase readParkingCase(const std::string& file);
 

@@ -2,6 +2,7 @@
 #include "free_space_command_processor.h"
 
 #include "external_command/FreeSpaceAction.h"
+#include "external_command/core/obstacle_polygon.h"
 #include "external_command/core/text.h"
 #include "external_command/ros/action_front.h"
 #include "external_command/ros/checks.h"
@@ -17,7 +18,8 @@ Region::Parts partsOf(const FreeSpaceCommand& command, const Pose2d& frame, cons
   }
   for (std::size_t i = 0; i < command.non_drivable_roi.size(); ++i) {
     cancel.throwIfCancelled();
-    parts.non_drivable.push_back(toPolygon(command.non_drivable_roi[i], frame, text("non_drivable_roi[", i, "]")));
+    parts.non_drivable.push_back(obstaclePolygon(toMapPoints(command.non_drivable_roi[i].points, frame),
+                                                 text("non_drivable_roi[", i, "]")));
   }
   return parts;
 }

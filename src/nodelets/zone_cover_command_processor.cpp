@@ -7,6 +7,7 @@
 
 #include "external_command/ZoneCoverAction.h"
 #include "external_command/core/printable.h"
+#include "external_command/core/obstacle_polygon.h"
 #include "external_command/core/text.h"
 #include "external_command/map/near_ids.h"
 #include "external_command/ros/action_front.h"
@@ -137,7 +138,8 @@ CoverageArea ZoneCoverCommandProcessor::zoneOf(const ZoneCoverCommand& command, 
   CoverageArea zone{by_area ? areaOf(command).polygon : toPolygon(command.drivable_roi, frame, "drivable_roi"), {}};
   for (std::size_t i = 0; i < command.non_drivable_roi.size(); ++i) {
     cancel.throwIfCancelled();
-    zone.holes.push_back(toPolygon(command.non_drivable_roi[i], frame, text("non_drivable_roi[", i, "]")));
+    zone.holes.push_back(obstaclePolygon(toMapPoints(command.non_drivable_roi[i].points, frame),
+                                         text("non_drivable_roi[", i, "]")));
   }
   zone.grid = planner_->grid();
   zone.limits = planner_->regionLimits();
