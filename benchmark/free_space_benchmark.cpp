@@ -11,6 +11,7 @@
 #include "external_command/free_space/free_space_planner.h"
 #include "external_command/free_space/planner_log.h"
 #include "files.h"
+#include "made_cases.h"
 #include "parking_case.h"
 #include "path_files.h"
 #include "statistics.h"
@@ -22,25 +23,35 @@ namespace benchmark {
 namespace {
 
 constexpr const char* kUsage = R"(usage: benchmark_free_space [OPTION...] DIR|FILE...
+       benchmark_free_space --made SEED [OPTION...]
 Plans every parking case (*.json), one line each and a summary. Needs no ROS master.
+  --made SEED       hard cases made with these random numbers: slaloms, car parks, docks, alleys, mazes, long roads
+  --only TEXT       those cases whose name contains TEXT
+  --cases DIR       write each case as DIR/CASE.json
   --time-budget S   for each case, improvement included (1)
   --improve S       of it, for improving the first path (all that is left)
   --planner NAME    portfolio, hybrid_astar, or OMPL's rrtconnect, rrtstar, kpiece (portfolio)
   --seed N          of the random numbers (1)
   --threads N       that improve the path side by side (1)
   --margin M        distance kept to all obstacles [m] (0.01)
+  --reverse-factor F     price of a metre in reverse, as length forward (2)
+  --gear-change-cost M   price of a gear change, as length [m] (3)
   --continuous      curvature continuous between gear changes
   --paths DIR       write each path as DIR/CASE.json: [[x, y, theta, direction], ...]
   --svg DIR         draw each path as DIR/CASE.svg
-Columns: time and cost of the first valid path, cost of the final one (in brackets: of best_known.json beside the
-cases), its length [m], gear changes and clearance [m], and the time that the case took on the wall clock and on the
-processor [s]. Cost is length plus 3 m per gear change. A path that a controller could not rely on has a line more.
+Columns: time and plain cost of the first valid path, plain cost of the final one (in brackets: of best_known.json
+beside the cases), its cost with the price of reversing, its length and that in reverse [m], gear changes and clearance
+[m], and the time that the case took on the wall clock and on the processor [s]. The plain cost, that of
+best_known.json, is length plus 3 m per gear change. A path that a controller could not rely on has a line more.
 Exit code: 0; 1 if there is such a path; 2 if an option is wrong or a file cannot be read or written.
 )";
 
 struct Options {
   FreeSpaceParams params;
   std::vector<std::string> inputs;
+  int made = -1;  // seed of made cases; -1: none
+  std::string only;
+  std::string cases;
   std::string paths;
   std::string drawings;
 };
@@ -48,7 +59,8 @@ struct Options {
 struct Summary {
   std::size_t cases = 0;
   std::size_t faulty = 0;
-  std::vector<double> first_times, first_ratios, ratios;
+  double length = 0.0, reverse_length = 0.0;  // of all paths [m]
+  std::vector<double> first_times, first_ratios, ratios, cpu_times;
 };
 
 Options parse(CommandLine line) {
@@ -57,32 +69,45 @@ Options parse(CommandLine line) {
   params.margin = 0.01;
   params.improve_iterations = 0;
   double improve = -1.0;
-  options.inputs = line.parse({{"--time-budget", [&] { params.time_budget = line.number(); }},
+  options.inputs = line.parse({{"--made", [&] { options.made = line.integer(0); }},
+                               {"--only", [&] { options.only = line.value(); }},
+                               {"--cases", [&] { options.cases = line.value(); }},
+                               {"--time-budget", [&] { params.time_budget = line.number(); }},
                                {"--improve", [&] { improve = line.number(); }},
                                {"--planner", [&] { params.planner = line.value(); }},
                                {"--seed", [&] { params.seed = static_cast<unsigned>(line.integer(0)); }},
                                {"--threads", [&] { params.threads = static_cast<unsigned>(line.integer(0)); }},
                                {"--margin", [&] { params.margin = line.number(); }},
+                               {"--reverse-factor", [&] { params.reverse_factor = line.number(); }},
+                               {"--gear-change-cost", [&] { params.gear_change_cost = line.number(); }},
                                {"--continuous", [&] { params.continuous_curvature = true; }},
                                {"--paths", [&] { options.paths = line.value(); }},
                                {"--svg", [&] { options.drawings = line.value(); }}});
   params.improve_budget = improve < 0.0 ? params.time_budget : improve;
-  if (options.inputs.empty()) throw std::invalid_argument("give a folder or files of cases");
+  if (options.inputs.empty() && options.made < 0) throw std::invalid_argument("give a folder or files of cases");
   return options;
 }
 
+/// What best_known.json counts, whatever the prices of the search are.
+double plainCost(double length, unsigned gear_changes) { return length + 3.0 * gear_changes; }
+
 void report(const FreeSpacePlan& result, double best_known, double cpu_seconds, Summary* summary) {
+  const double first = plainCost(result.first_path_length, result.first_path_gear_changes);
+  const double final = plainCost(result.length, result.gear_changes);
   summary->first_times.push_back(result.first_path_time);
-  std::printf("first %7.2f ms %7.3f", 1e3 * result.first_path_time, result.first_path_cost);
+  summary->length += result.length;
+  summary->reverse_length += result.reverse_length;
+  std::printf("first %7.2f ms %7.3f", 1e3 * result.first_path_time, first);
   if (best_known > 0.0) {
-    summary->first_ratios.push_back(result.first_path_cost / best_known);
-    summary->ratios.push_back(result.cost / best_known);
+    summary->first_ratios.push_back(first / best_known);
+    summary->ratios.push_back(final / best_known);
     std::printf(" (%.3f)", summary->first_ratios.back());
   }
-  std::printf("  final %7.3f", result.cost);
+  std::printf("  final %7.3f", final);
   if (best_known > 0.0) std::printf(" (%.3f)", summary->ratios.back());
-  std::printf("  length %7.3f  gear changes %2u  clearance %.3f  time %.3f  cpu %.3f\n", result.length,
-              result.gear_changes, result.min_clearance, result.planning_time, cpu_seconds);
+  std::printf("  cost %7.3f  length %7.3f  reverse %7.3f  gear changes %2u  clearance %.3f  time %.3f  cpu %.3f\n",
+              result.cost, result.length, result.reverse_length, result.gear_changes, result.min_clearance,
+              result.planning_time, cpu_seconds);
 }
 
 /// As it would be sent: its caps of speed made limits.
@@ -94,23 +119,27 @@ void check(const ParkingCase& task, Path path, Summary* summary) {
   std::printf("  FAULT: %s\n", fault.c_str());
 }
 
-void runCase(const std::string& file, const Options& options, Summary* summary) {
-  const ParkingCase task = readParkingCase(file);
-  const std::map<std::string, double> best_known = bestKnownCosts(file);
+void runCase(const ParkingCase& task, const std::map<std::string, double>& best_known, const Options& options,
+             Summary* summary) {
+  if (task.name.find(options.only) == std::string::npos) return;
+  ++summary->cases;
+  if (!options.cases.empty()) writeCase(task, options.cases + "/" + task.name + ".json");
   const auto known = best_known.find(task.name);
   std::printf("%-28s ", task.name.c_str());
   const std::clock_t begin = std::clock();
+  const auto cpuSeconds = [begin] { return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC; };
   try {
     const FreeSpacePlanner planner(task.vehicle, options.params);
     const FreeSpacePlan result = planner.plan(task.start, {task.goal}, task.region, {});
-    const double cpu_seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    const double cpu_seconds = cpuSeconds();
     report(result, known == best_known.end() ? 0.0 : known->second, cpu_seconds, summary);
     check(task, result.path, summary);
     if (!options.paths.empty()) writePath(task, result.path, options.paths + "/" + task.name + ".json");
     if (!options.drawings.empty()) writeDrawing(task, result.path, options.drawings + "/" + task.name + ".svg");
   } catch (const Error& error) {
-    std::printf("FAILED %s: %s\n", toString(error.code()), error.what());
+    std::printf("FAILED cpu %.3f %s: %s\n", cpuSeconds(), toString(error.code()), error.what());
   }
+  summary->cpu_times.push_back(cpuSeconds());
   std::fflush(stdout);
 }
 
@@ -118,11 +147,13 @@ void print(const Summary& summary) {
   std::printf("solved %zu of %zu; first path: median %.2f ms, slowest %.2f ms", summary.first_times.size(),
               summary.cases, 1e3 * median(summary.first_times), 1e3 * largest(summary.first_times));
   if (!summary.ratios.empty()) {
-    std::printf("; cost over best known, median (largest): first %.3f (%.3f), final %.3f (%.3f)",
+    std::printf("; plain cost over best known, median (largest): first %.3f (%.3f), final %.3f (%.3f)",
                 median(summary.first_ratios), largest(summary.first_ratios), median(summary.ratios),
                 largest(summary.ratios));
   }
-  std::printf("; faulty paths: %zu\n", summary.faulty);
+  std::printf("; in reverse %.1f %% of the way; cpu median %.3f s, most %.3f s; faulty paths: %zu\n",
+              summary.length > 0.0 ? 100.0 * summary.reverse_length / summary.length : 0.0, median(summary.cpu_times),
+              largest(summary.cpu_times), summary.faulty);
 }
 
 int run(const CommandLine& line) {
@@ -132,12 +163,16 @@ int run(const CommandLine& line) {
   }
   const Options options = parse(line);
   options.params.validate();
-  makeFolders({options.paths, options.drawings});
+  makeFolders({options.cases, options.paths, options.drawings});
   setPlannerLog({});
   Summary summary;
   for (const std::string& file : parkingCaseFiles(options.inputs)) {
-    ++summary.cases;
-    runCase(file, options, &summary);
+    runCase(readParkingCase(file), bestKnownCosts(file), options, &summary);
+  }
+  if (options.made >= 0) {
+    for (const ParkingCase& task : makeParkingCases(static_cast<unsigned>(options.made))) {
+      runCase(task, {}, options, &summary);
+    }
   }
   print(summary);
   return summary.faulty == 0 ? 0 : 1;

@@ -20,6 +20,38 @@ std::string styleOf(const ReferencePoint& point) {
 
 }  // namespace
 
+void writeCase(const ParkingCase& task, const std::string& file) {
+  std::ofstream out = openForWriting(file);
+  out.precision(17);
+  const Point2d& origin = task.origin;
+  const auto pose = [&](const char* name, const Pose2d& value) {
+    out << "\"" << name << "\": [" << value.x + origin.x() << ", " << value.y + origin.y() << ", " << value.heading
+        << "],\n";
+  };
+  const VehicleParams& vehicle = task.vehicle;
+  out << "{\"name\": \"" << task.name << "\",\n\"vehicle\": {\"wheelbase\": " << vehicle.wheelbase
+      << ", \"width\": " << vehicle.width << ", \"front_overhang\": " << vehicle.front_overhang
+      << ", \"rear_overhang\": " << vehicle.rear_overhang << ", \"min_turning_radius\": " << vehicle.min_turning_radius
+      << "},\n";
+  pose("start", task.start);
+  pose("goal", task.goal);
+  const BoundingBox& bounds = *task.region.axleBounds();
+  out << "\"bounds\": [" << bounds.min.x() + origin.x() << ", " << bounds.min.y() + origin.y() << ", "
+      << bounds.max.x() + origin.x() << ", " << bounds.max.y() + origin.y() << "],\n\"obstacles\": [";
+  const char* next_polygon = "";
+  for (const Polygon& obstacle : task.region.nonDrivable()) {
+    out << next_polygon << "[";
+    const char* next_point = "";
+    for (const Point2d& point : obstacle.points()) {
+      out << next_point << "[" << point.x() + origin.x() << ", " << point.y() + origin.y() << "]";
+      next_point = ", ";
+    }
+    out << "]";
+    next_polygon = ",\n";
+  }
+  out << "]}\n";
+}
+
 void writePath(const ParkingCase& task, const Path& path, const std::string& file) {
   std::ofstream out = openForWriting(file);
   out.precision(17);

@@ -9,6 +9,10 @@
 namespace external_command {
 namespace benchmark {
 
+/// The case as readParkingCase() takes it.
+/// @throws std::runtime_error  the file cannot be written.
+void writeCase(const ParkingCase& task, const std::string& file);
+
 /// The path as [[x, y, theta, direction], ...] in the frame of the case's file.
 /// @throws std::runtime_error  the file cannot be written.
 void writePath(const ParkingCase& task, const Path& path, const std::string& file);

@@ -119,6 +119,7 @@ std::optional<Curve> Connector::shiftedTurn(const Pose2d& from, const Pose2d& to
 
 /// Nearby first: most ways lead no farther, and to prepare for the whole area takes longer than to search.
 std::optional<Curve> Connector::search(const Pose2d& from, const Pose2d& to) const {
+  if (!field_.isFree(from) || !field_.isFree(to)) return std::nullopt;  // the planner would shrink the margin there
   const double room = kRoom * field_.radius();
   const Point2d low = from.position().cwiseMin(to.position()) - Point2d(room, room);
   const Point2d high = from.position().cwiseMax(to.position()) + Point2d(room, room);
@@ -139,6 +140,7 @@ std::optional<Curve> Connector::searchWithin(const std::optional<BoundingBox>& b
   params.max_iterations = kMostSteps;
   params.improve_budget = 0.0;
   params.gear_change_cost = field_.params().gear_change_cost;
+  params.reverse_factor = 1.0;  // a metre swept is a metre, in either gear
   params.spacing = 0.25;
   try {
     const FreeSpacePlan result =

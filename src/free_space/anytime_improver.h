@@ -9,7 +9,7 @@
 namespace external_command {
 
 /// Uses whatever time it gets to make a path cheaper: improves it locally and, when that no longer helps, searches anew
-/// with other settings for a path of another shape.
+/// with other settings for a path of another shape, of all of the way or, where that is long, of a part of it.
 class AnytimeImprover {
  public:
   AnytimeImprover(const Scene& scene, const Query& query, const BoundingBox& area, std::uint64_t seed);
@@ -18,6 +18,8 @@ class AnytimeImprover {
   Arcs improve(const Arcs& arcs, WorkBudget* budget);
 
  private:
+  Arcs windowSearched(const Arcs& arcs, WorkBudget* budget);
+
   Scene scene_;
   Query query_;
   BoundingBox area_;

@@ -23,10 +23,17 @@ Point2d originOf(const Region& region) {
 }  // namespace
 
 struct CollisionChecker::Impl {
-  Impl(const VehicleParams& vehicle, double margin, const Region& given, const Checkpoint& checkpoint)
-      : region(given), origin(originOf(region)), index(vehicle, margin, region, origin, checkpoint) {}
+  Impl(const VehicleParams& vehicle, double margin, const Region& given, const std::vector<Pose2d>& eased_at,
+       const Checkpoint& checkpoint)
+      : region(given), origin(originOf(region)), index(vehicle, margin, region, origin, local(eased_at), checkpoint) {}
 
   Pose2d local(const Pose2d& pose) const { return {pose.x - origin.x(), pose.y - origin.y(), pose.heading}; }
+
+  std::vector<Pose2d> local(const std::vector<Pose2d>& poses) const {
+    std::vector<Pose2d> moved;
+    for (const Pose2d& pose : poses) moved.push_back(local(pose));
+    return moved;
+  }
 
   Region region;
   Point2d origin;
@@ -34,12 +41,12 @@ struct CollisionChecker::Impl {
 };
 
 CollisionChecker::CollisionChecker(const VehicleParams& vehicle, double margin, const Region& region,
-                                   const Checkpoint& checkpoint) {
+                                   const Checkpoint& checkpoint, const std::vector<Pose2d>& eased_at) {
   vehicle.validate();
   if (!(margin >= 0.0 && margin <= 5.0)) {
     throw InvalidParameter(text("margin is ", margin, " m; it must lie in [0, 5]"));
   }
-  impl_ = std::make_unique<const Impl>(vehicle, margin, region, checkpoint);
+  impl_ = std::make_unique<const Impl>(vehicle, margin, region, eased_at, checkpoint);
 }
 
 CollisionChecker::~CollisionChecker() = default;
@@ -55,7 +62,7 @@ std::optional<Collision> CollisionChecker::collisionAt(const Pose2d& pose) const
 }
 
 double CollisionChecker::clearance(const Pose2d& pose, double limit) const {
-  return impl_->index.clearance(Frame(impl_->local(pose)), limit);
+  return impl_->index.clearance(Frame(impl_->local(pose)), limit).distance;
 }
 
 double CollisionChecker::minClearance(const Path& path, double limit) const {

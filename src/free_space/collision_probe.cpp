@@ -28,8 +28,9 @@ class Probe {
   /// True where the footprint, moved by `shift`, comes nearer than the margin to `source`.
   bool collides(int source, const Point2d& shift) const {
     const Frame frame = shifted(shift);
-    for (const ObstacleEdge& edge : index_.obstacles().edges()) {
-      if (edge.source == source && index_.isTooNear(index_.distanceTo(edge, frame))) return true;
+    const std::vector<ObstacleEdge>& edges = index_.obstacles().edges();
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      if (edges[i].source == source && index_.isTooNear(index_.distanceTo(edges[i], frame), i)) return true;
     }
     const double c = index_.box().centre;
     return index_.obstacles().isFilledBy(source, {frame.x + c * frame.cos, frame.y + c * frame.sin});
@@ -101,6 +102,13 @@ std::string Collision::obstacle() const {
 
 std::string Collision::extent() const {
   return depth < kFarthest ? "by " + metres(depth) : "by more than " + metres(kFarthest);
+}
+
+std::string obstacleName(int source) {
+  Collision collision;
+  collision.kind = kindOf(source);
+  collision.index = static_cast<std::size_t>(std::max(source, 0));
+  return collision.obstacle();
 }
 
 std::optional<Collision> probeCollision(const FootprintIndex& index, const Pose2d& local) {

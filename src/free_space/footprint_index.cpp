@@ -31,19 +31,22 @@ double pointToBox(double u, double v, double l, double w) {
 }  // namespace
 
 FootprintIndex::FootprintIndex(const VehicleParams& vehicle, double margin, const Region& region, const Point2d& origin,
-                               const Checkpoint& checkpoint)
+                               const std::vector<Pose2d>& eased_at, const Checkpoint& checkpoint)
     : obstacles_(region, origin, checkpoint),
       box_(vehicle),
       margin_(margin),
+      least_margin_(margin),
       reach_(box_.circumradius() + margin),
       extent_(emptyBox()),
       axle_bounds_{Point2d(-kInfinity, -kInfinity), Point2d(kInfinity, kInfinity)},
       outside_is_free_(!obstacles_.isOutsideFilled()) {
   if (region.axleBounds()) axle_bounds_ = {region.axleBounds()->min - origin, region.axleBounds()->max - origin};
+  for (std::size_t i = 0; i < eased_at.size(); ++i) easeMargin(i, eased_at[i]);
   for (const ObstacleEdge& edge : obstacles_.edges()) {
     const Point2d middle = 0.5 * (edge.begin + edge.end), half = 0.5 * (edge.end - edge.begin);
     edges_.push_back({middle.x(), middle.y(), half.x(), half.y()});
   }
+  makeBlocks();
   setExtent();
   fillStates(checkpoint);
   spreadEdges(checkpoint);
@@ -249,7 +252,7 @@ bool FootprintIndex::edgesAreClear(long cell, const Frame& frame, double cx, dou
     if (std::abs(mu) > l + std::abs(hu) || std::abs(mv) > w + std::abs(hv)) continue;
     if (std::abs(mu * hv - mv * hu) > l * std::abs(hv) + w * std::abs(hu)) continue;
     // Near a corner of the grown box the distance may still be kept.
-    if (isTooNear(exactDistance(edge, frame, cx, cy))) return false;
+    if (isTooNear(exactDistance(edge, frame, cx, cy), *i)) return false;
   }
   return true;
 }
@@ -304,13 +307,13 @@ double FootprintIndex::exactRoom(const Frame& frame) const {
   if (bound != 0.0) return bound;
   const double cx = frame.x + box_.centre * frame.cos, cy = frame.y + box_.centre * frame.sin;
   const long cell = cellAt(cx, cy);
-  double distance = margin_ + kBeyond;
+  double room = kBeyond;
   if (cell < 0) return 0.0;
   const std::uint32_t* end = listed_.data() + starts_[static_cast<std::size_t>(cell) + 1];
   for (const std::uint32_t* i = listed_.data() + starts_[static_cast<std::size_t>(cell)]; i != end; ++i) {
-    distance = std::min(distance, exactDistance(edges_[*i], frame, cx, cy));
+    room = std::min(room, exactDistance(edges_[*i], frame, cx, cy) - marginTo(*i));
   }
-  return distance - margin_;
+  return room;
 }
 
 bool FootprintIndex::keepsMargin(const Pose2d& from, const ArcSegment& arc) const {
@@ -324,27 +327,6 @@ bool FootprintIndex::keepsMargin(const Pose2d& from, const ArcSegment& arc) cons
   return true;
 }
 
-double FootprintIndex::distanceTo(const ObstacleEdge& edge, const Frame& frame) const {
-  const Point2d middle = 0.5 * (edge.begin + edge.end), half = 0.5 * (edge.end - edge.begin);
-  return exactDistance({middle.x(), middle.y(), half.x(), half.y()}, frame, frame.x + box_.centre * frame.cos,
-                       frame.y + box_.centre * frame.sin);
-}
-
-double FootprintIndex::clearance(const Frame& frame, double limit) const {
-  const double cx = frame.x + box_.centre * frame.cos, cy = frame.y + box_.centre * frame.sin;
-  const double circumradius = box_.circumradius();
-  double best = limit;
-  for (const HalfEdge& edge : edges_) {
-    // cheap lower bound first: circle around the footprint, box around the edge
-    const double dx = std::max(std::abs(edge.mx - cx) - std::abs(edge.hx), 0.0);
-    const double dy = std::max(std::abs(edge.my - cy) - std::abs(edge.hy), 0.0);
-    if (dx * dx + dy * dy > squared(best + circumradius)) continue;
-    best = std::min(best, exactDistance(edge, frame, cx, cy));
-    if (best <= 0.0) return 0.0;
-  }
-  return obstacles_.filledBy(Point2d(cx, cy)) ? 0.0 : best;
-}
-
 bool FootprintIndex::axleMayBeWithin(double x, double y, double radius) const {
   if (x < axle_bounds_.min.x() - radius || x > axle_bounds_.max.x() + radius) return false;
   if (y < axle_bounds_.min.y() - radius || y > axle_bounds_.max.y() + radius) return false;
@@ -352,9 +334,33 @@ bool FootprintIndex::axleMayBeWithin(double x, double y, double radius) const {
   if (cell < 0) return outside_is_free_;
   const auto at = static_cast<std::size_t>(cell);
   const double slack = radius + (cellCentre(cell % columns_, cell / columns_) - Point2d(x, y)).norm();
-  // Every footprint contains this disc around its axle centre.
-  const double disc = std::min(box_.half_width, box_.half_length - std::abs(box_.centre)) + margin_;
-  return states_[at] == State::kFree ? near_[at] + slack >= disc : near_[at] <= slack;
+  return states_[at] == State::kFree ? near_[at] + slack >= axleDisc() : near_[at] <= slack;
+}
+
+double FootprintIndex::axleDisc() const {
+  return std::min(box_.half_width, box_.half_length - std::abs(box_.centre)) + least_margin_;
+}
+
+double FootprintIndex::axleRoom(const Point2d& point, double limit) const {
+  const long cell = cellAt(point.x(), point.y());
+  if (cell < 0) return outside_is_free_ ? limit : 0.0;
+  const auto at = static_cast<std::size_t>(cell);
+  const double near = static_cast<double>(near_[at]);
+  if (near > cell_reach_ && states_[at] == State::kFilled) return cell_reach_ - near;
+  if (near - cell_reach_ >= limit) return limit;
+  double room = limit;
+  for (std::uint32_t i = starts_[at]; i < starts_[at + 1]; ++i) {
+    const ObstacleEdge& edge = obstacles_.edges()[listed_[i]];
+    room = std::min(room, (nearestOnSegment(point, edge.begin, edge.end) - point).norm());
+  }
+  return room;
+}
+
+double FootprintIndex::roomAt(const Point2d& point) const {
+  const long cell = cellAt(point.x(), point.y());
+  if (cell < 0) return outside_is_free_ ? kInfinity : 0.0;
+  const auto at = static_cast<std::size_t>(cell);
+  return states_[at] == State::kFree ? static_cast<double>(near_[at]) : 0.0;
 }
 
 Point2d FootprintIndex::snapped(const Point2d& point) const {

@@ -12,6 +12,7 @@
 #include "external_command/core/text.h"
 #include "first_path.h"
 #include "last_check.h"
+#include "narrow_passage.h"
 #include "steering_ramps.h"
 
 namespace external_command {
@@ -37,6 +38,12 @@ struct Solution {
   double cost = std::numeric_limits<double>::infinity();
 };
 
+/// About the start (pose 0) or a goal.
+struct Warning {
+  std::size_t pose;
+  std::string text;
+};
+
 /// The goals are numbered only where there are several.
 std::string nameOf(std::size_t goal, const std::vector<Pose2d>& goals) {
   return goals.size() > 1 ? text("goal ", goal) : "the goal";
@@ -53,12 +60,13 @@ class Planning {
         origin_(start.position()),
         start_(local(start)),
         stop_(cancel, after(begin_, params.time_budget)),
-        index_(vehicle, params.margin, region, origin_, [this] { throwIfStopped(); }),
+        index_(vehicle, params.margin, region, origin_, local(start, goals), [this] { throwIfStopped(); }),
         scene_{index_, vehicle.min_turning_radius, {params.gear_change_cost, 1.0, params.reverse_factor}} {
     if (const auto collision = probeCollision(index_, start_)) {
       throw StartBlocked(described("the start", start, *collision));
     }
     addApproaches(goals);
+    tellEasedMargins(start, goals);
   }
 
   FreeSpacePlan run() {
@@ -66,12 +74,17 @@ class Planning {
     FreeSpacePlan result = finish(best);
     result.first_path_time = secondsSince(begin_);
     result.first_path_cost = result.cost;
+    result.first_path_length = result.length;
+    result.first_path_gear_changes = result.gear_changes;
     if (params_.planner == "portfolio" && params_.improve_budget > 0.0) {
       const Solution better = improved(best);
       if (better.cost < best.cost) replace(&result, better);
     }
     toMapFrame(&result.path);
     result.planner = params_.planner;
+    for (const Warning& warning : warnings_) {
+      if (warning.pose == 0 || warning.pose == result.goal_index + 1) result.warnings.push_back(warning.text);
+    }
     result.planning_time = secondsSince(begin_);
     return result;
   }
@@ -97,6 +110,23 @@ class Planning {
   }
 
   Pose2d local(const Pose2d& pose) const { return {pose.x - origin_.x(), pose.y - origin_.y(), pose.heading}; }
+
+  std::vector<Pose2d> local(const Pose2d& start, const std::vector<Pose2d>& goals) const {
+    std::vector<Pose2d> poses{local(start)};
+    for (const Pose2d& goal : goals) poses.push_back(local(goal));
+    return poses;
+  }
+
+  void tellEasedMargins(const Pose2d& start, const std::vector<Pose2d>& goals) {
+    for (const EasedMargin& eased : index_.easedMargins()) {
+      const bool is_start = eased.pose == 0;
+      const Pose2d& pose = is_start ? start : goals[eased.pose - 1];
+      warnings_.push_back({eased.pose, text(is_start ? "the start" : nameOf(eased.pose - 1, goals), " ", at(pose),
+                                            " is ", metres(eased.distance), " from ", obstacleName(eased.source),
+                                            ", nearer than the margin of ", metres(params_.margin), ": within ",
+                                            metres(eased.within), " of it the margin is ", metres(eased.margin))});
+    }
+  }
 
   void addApproaches(const std::vector<Pose2d>& goals) {
     std::string blocked;
@@ -159,7 +189,7 @@ class Planning {
         if (found.outcome == TwoWaySearch::Outcome::kFound) consider(approach, found.arcs, &best);
       }
       if (best.approach != nullptr) return best;
-      if (all_hopeless) throw NoPath(whyNone("there is none, searched in steps of a centimetre or two"));
+      if (all_hopeless) throw NoPath(whyNone(whyHopeless()));
       if (stop_.isReached()) {
         throw PlanningTimeout(whyNone(text("none was found within ", seconds(params_.time_budget),
                                            "; give it more time (time_budget), or a smaller margin (margin)")));
@@ -170,6 +200,20 @@ class Planning {
       }
       steps = std::min<std::size_t>(4 * steps, params_.max_iterations);
     }
+  }
+
+  /// What closes the way, if one narrow place does; for the first of the approaches.
+  std::string whyHopeless() const {
+    const Query& query = approaches_[0].query;
+    const Point2d start = query.start.position(), goal = query.goal.position();
+    // the search alone is for callers that only want to know whether there is a way
+    if (params_.planner != "portfolio" || !isTooNarrow(index_, areaOf(query), start, goal)) {
+      return "there is none, searched in steps of a centimetre or two";
+    }
+    const auto passage = narrowestPassage(index_, areaOf(query), start, goal, [this] { return stop_.isReached(); });
+    if (!passage) return "obstacles close every way, or leave less room than the vehicle needs";
+    return text("the widest way is only ", metres(passage->width), " wide at ", at(Point2d(passage->at + origin_)),
+                "; the vehicle needs ", metres(2.0 * index_.axleDisc()), ", twice the margin included");
   }
 
   std::string whyNone(const std::string& why) const {
@@ -244,7 +288,7 @@ class Planning {
     const auto keepsClear = [&](const Arcs& ramped) {
       stop_.cancel().throwIfCancelled();
       const LastCheck check = checkPath(sampleArcs(start_, ramped, params_.spacing), demands, index_);
-      return !check.fault && check.min_clearance >= params_.margin - kRampsMayTake;
+      return !check.fault && check.min_room >= -kRampsMayTake;
     };
     return withSteeringRamps(start_, arcs, vehicle_, params_.manoeuvre_speed, keepsClear);
   }
@@ -257,6 +301,8 @@ class Planning {
       FreeSpacePlan finished = finish(better);
       finished.first_path_time = result->first_path_time;
       finished.first_path_cost = result->first_path_cost;
+      finished.first_path_length = result->first_path_length;
+      finished.first_path_gear_changes = result->first_path_gear_changes;
       *result = std::move(finished);
     } catch (const NoPath&) {
     }
@@ -280,6 +326,7 @@ class Planning {
   FootprintIndex index_;
   Scene scene_;
   std::vector<Approach> approaches_;
+  std::vector<Warning> warnings_;
 };
 
 void requireUsable(const Pose2d& start, const std::vector<Pose2d>& goals) {
@@ -304,7 +351,7 @@ FreeSpacePlanner::FreeSpacePlanner(const VehicleParams& vehicle, const FreeSpace
 }
 
 FreeSpacePlan FreeSpacePlanner::plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region,
-                                       const CancelToken& cancel) const {
+                                     const CancelToken& cancel) const {
   requireUsable(start, goals);
   cancel.throwIfCancelled();
   return Planning(vehicle_, params_, start, goals, region, cancel).run();

@@ -3,11 +3,15 @@
 
 #include <ompl/base/Planner.h>
 
+#include <functional>
+#include <optional>
+
 #include "two_way_search.h"
 
 namespace external_command {
 
-/// TwoWaySearch as a planner of OMPL. The solution's states are joined by their shortest Reeds-Shepp curves.
+/// TwoWaySearch, over way poses where the way is long, as a planner of OMPL. The solution's states are joined by their
+/// shortest Reeds-Shepp curves.
 class HybridAStar : public ompl::base::Planner {
  public:
   HybridAStar(const ompl::base::SpaceInformationPtr& space, const Scene& scene, const Query& query,
@@ -19,9 +23,13 @@ class HybridAStar : public ompl::base::Planner {
   TwoWaySearch::Outcome outcome() const { return outcome_; }
 
  private:
-  TwoWaySearch search_;
+  std::optional<Arcs> search(const std::function<bool()>& stop);
+
+  Scene scene_;
   Query query_;
+  BoundingBox area_;
   std::size_t max_steps_;
+  TwoWaySearch search_;
   TwoWaySearch::Outcome outcome_ = TwoWaySearch::Outcome::kStopped;
 };
 

@@ -63,25 +63,28 @@ class Sweep {
       s += room_ / corner_speed;
       const Pose2d pose = advance(from, arc, s);
       measure(pose);
-      if (clearance_ < index_.margin() - kMarginSlack || !index_.isWithinAxleBounds(pose.x, pose.y)) return false;
+      if (clearance_.room < -kMarginSlack || !index_.isWithinAxleBounds(pose.x, pose.y)) return false;
     }
     room_ -= (length - s) * corner_speed;
     return true;
   }
 
-  double clearance() const { return clearance_; }
+  double clearance() const { return clearance_.distance; }
   double minClearance() const { return min_clearance_; }
+  double minRoom() const { return min_room_; }
 
  private:
   void measure(const Pose2d& pose) {
     clearance_ = index_.clearance(Frame(pose), kFarthest);
-    min_clearance_ = std::min(min_clearance_, clearance_);
-    room_ = std::max(clearance_ - index_.margin(), kFineStep);
+    min_clearance_ = std::min(min_clearance_, clearance_.distance);
+    min_room_ = std::min(min_room_, clearance_.room);
+    room_ = std::max(clearance_.room, kFineStep);
   }
 
   const FootprintIndex& index_;
-  double clearance_ = 0.0;
+  FootprintIndex::Clearance clearance_{0.0, 0.0};
   double min_clearance_ = kFarthest;
+  double min_room_ = kFarthest;
   double room_ = 0.0;  ///< how far the corners may move before the next measurement [m]
 };
 
@@ -106,6 +109,7 @@ LastCheck checkPath(const Path& path, const PathDemands& demands, const Footprin
     }
   }
   check.min_clearance = sweep.minClearance();
+  check.min_room = sweep.minRoom();
   return check;
 }
 

@@ -21,6 +21,7 @@ struct PathDemands {
 struct LastCheck {
   std::optional<std::string> fault;  ///< what is wrong, where and by how much
   double min_clearance = 0.0;        ///< of the bare footprint, at most 10 m [m]
+  double min_room = 0.0;             ///< smallest difference of clearance and margin [m]
 };
 
 /// Looks at the points of a path (local frame) as a follower would drive them, one arc from each to the next, and

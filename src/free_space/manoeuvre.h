@@ -22,7 +22,8 @@ struct Scene {
 struct Query {
   Pose2d start;
   Pose2d goal;
-  int gear_after = 0;  ///< in which the vehicle goes on at the goal; 0: it stops there
+  int gear_after = 0;   ///< in which the vehicle goes on at the goal; 0: it stops there
+  int gear_before = 0;  ///< in which it arrives at the start; 0: it stands there
 };
 
 inline int gearOf(const ArcSegment& arc) { return arc.length < 0.0 ? -1 : 1; }

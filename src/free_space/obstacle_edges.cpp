@@ -122,6 +122,14 @@ void LocalObstacles::addGrid(const OccupancyGrid& grid, const Checkpoint& checkp
            [&](long column, long row) { return view.isBlocked(column - 1, row) != view.isBlocked(column, row); });
 }
 
+void LocalObstacles::cutEdge(std::size_t edge, double from, double to) {
+  const ObstacleEdge whole = edges_[edge];
+  const Point2d along = whole.end - whole.begin;
+  if (from > 0.0) edges_.push_back({whole.begin, whole.begin + from * along, whole.source});
+  if (to < 1.0) edges_.push_back({whole.begin + to * along, whole.end, whole.source});
+  edges_[edge] = {whole.begin + from * along, whole.begin + to * along, whole.source};
+}
+
 std::optional<int> LocalObstacles::filledBy(const Point2d& local) const {
   if (region_->drivable() && isFilledBy(kDrivableSource, local)) return kDrivableSource;
   for (std::size_t i = 0; i < region_->nonDrivable().size(); ++i) {

@@ -30,6 +30,9 @@ class LocalObstacles {
   const Region& region() const { return *region_; }
   const Point2d& origin() const { return origin_; }
 
+  /// Leaves the part of an edge from `from` to `to` of its length, 0 to 1, in its place; the rest comes after all others.
+  void cutEdge(std::size_t edge, double from, double to);
+
   /// Who fills the point, given in the local frame; nullopt where it is free. O(edges) but for boxes that miss it.
   std::optional<int> filledBy(const Point2d& local) const;
 

@@ -198,6 +198,7 @@ void appendManoeuvre(const FreeSpacePlan& manoeuvre, MotionPlan* plan) {
   plan->report.min_clearance = plan->report.min_clearance > 0.0
                                    ? std::min(plan->report.min_clearance, manoeuvre.min_clearance)
                                    : manoeuvre.min_clearance;
+  plan->report.warnings.insert(plan->report.warnings.end(), manoeuvre.warnings.begin(), manoeuvre.warnings.end());
   plan->scene.with_footprints = true;
 }
 

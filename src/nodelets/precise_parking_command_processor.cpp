@@ -13,6 +13,8 @@ namespace external_command {
 
 namespace {
 
+constexpr double kRounding = 1e-6;  // of a distance [m]
+
 /// Straight from `from` over `length` [m], forward or in reverse.
 Path straightPath(const Pose2d& from, double length, Direction direction, double spacing,
                   const VehicleParams& vehicle) {
@@ -111,7 +113,7 @@ void PreciseParkingCommandProcessor::processSpecialCommand(const PreciseParkingC
   const Pose2d entry = plan->path.empty() ? plan->start.pose() : plan->path.back().pose();
   const Region region = planner_->regionOf(surfaceWith(map, area, entry, cancel));
   const Path last = straightPath(before, straight_last_, into, planner_->params().spacing, vehicle);
-  const CollisionChecker checker(vehicle, planner_->params().margin, region, cancel.checkpoint());
+  const CollisionChecker checker(vehicle, planner_->params().margin, region, cancel.checkpoint(), {spot, before});
   for (const ReferencePoint& point : last) {
     if (const auto collision = checker.collisionAt(point.pose())) {
       throw GoalBlocked(
@@ -131,7 +133,14 @@ void PreciseParkingCommandProcessor::processSpecialCommand(const PreciseParkingC
     leaveRouteFor({before}, region, *planner_, deadline, cancel, plan);
   }
   plan->path = join(plan->path, last);
-  plan->report.min_clearance = std::min(plan->report.min_clearance, checker.minClearance(last));
+  const double clearance = checker.minClearance(last);
+  if (clearance < planner_->params().margin - kRounding) {
+    plan->report.warnings.push_back(text("the straight last ", metres(straight_last_), " into parking_spot_pose ",
+                                         at(spot), " comes as near as ", metres(clearance),
+                                         " to an obstacle, nearer than the margin of ",
+                                         metres(planner_->params().margin)));
+  }
+  plan->report.min_clearance = std::min(plan->report.min_clearance, clearance);
   plan->scene.goal = spot;
   plan->command.command_type = PlanningCommand::CUSTOM;
   plan->command.custom_command = packAny(command);

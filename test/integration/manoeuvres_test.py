@@ -115,6 +115,22 @@ class ManoeuvresTest(unittest.TestCase):
         wall = [polygon([(-15, 10), (15, 10), (15, 10.2), (-15, 10.2)])]
         self.assert_refused(self.free_space(pose(-3.0, 12.7, 0.0), non_drivable_roi=wall), CommandStatus.NO_PATH)
 
+    def test_free_space_reaches_a_goal_nearer_than_the_margin(self):
+        goal = pose(-8.0, 4.0, 0.0)
+        for distance, words in ((0.05, "nearer than the margin"), (0.5, None)):
+            answer = self.free_space(goal, non_drivable_roi=[box(-8.0, 5.5 + distance, 0.5)], dry_run=True)
+            self.assertEqual(answer.status.error_code, CommandStatus.OK, support.describe(answer.status))
+            self.assertEqual([words in w for w in answer.report.warnings], [True] if words else [])
+        self.assert_refused(self.free_space(goal, non_drivable_roi=[box(-8.0, 5.45, 0.5)], dry_run=True),
+                            CommandStatus.GOAL_BLOCKED, "non_drivable_roi[0]")
+
+    def test_free_space_takes_a_point_for_an_obstacle(self):
+        goal = pose(-8.0, 4.0, 0.0)
+        self.assert_refused(self.free_space(goal, non_drivable_roi=[polygon([(-7.0, 4.0)] * 3)], dry_run=True),
+                            CommandStatus.GOAL_BLOCKED, "non_drivable_roi[0]")
+        answer = self.free_space(goal, non_drivable_roi=[polygon([(-7.0, 9.0)] * 3)], dry_run=True)
+        self.assertEqual(answer.status.error_code, CommandStatus.OK, support.describe(answer.status))
+
     def test_free_space_refuses_bad_polygons(self):
         bow_tie = polygon([(0, 0), (5, 5), (5, 0), (0, 5)])
         self.assert_refused(self.free_space(pose(5, 5, 0), non_drivable_roi=[bow_tie]), CommandStatus.INVALID_REQUEST,

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "external_command/core/cancel_token.h"
 #include "external_command/core/path.h"
@@ -36,10 +37,13 @@ class CollisionChecker {
   /// Builds an index over the region's edges; about a millisecond for a hundred polygons.
   /// @param margin  the footprint keeps at least this distance to every obstacle and border, not negative [m].
   /// @param checkpoint  called now and then meanwhile: a large region takes a second.
+  /// @param eased_at  poses that have to be taken: an obstacle that one of them is nearer to than the margin, without
+  ///                  meeting it, may be approached to half of that distance within about a vehicle's length.
   /// @throws InvalidParameter  vehicle or margin is out of range.
   /// @throws InvalidRequest  the region has more edges than its limits allow.
   CollisionChecker(
-      const VehicleParams& vehicle, double margin, const Region& region, const Checkpoint& checkpoint = [] {});
+      const VehicleParams& vehicle, double margin, const Region& region, const Checkpoint& checkpoint = [] {},
+      const std::vector<Pose2d>& eased_at = {});
   ~CollisionChecker();
   CollisionChecker(CollisionChecker&&) noexcept;
   CollisionChecker& operator=(CollisionChecker&&) noexcept;

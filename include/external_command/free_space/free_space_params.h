@@ -10,7 +10,8 @@ namespace external_command {
 /// `forward length + reverse_factor * reverse length + gear_change_cost * gear changes`.
 struct FreeSpaceParams {
   std::string planner = "portfolio";    ///< one of freeSpacePlanners()
-  double margin = 0.10;                 ///< distance the footprint keeps to every obstacle and border, [0, 5] [m]
+  double margin = 0.10;                 ///< distance the footprint keeps to every obstacle and border, but where
+                                        ///< the start or the goal is nearer, [0, 5] [m]
   double time_budget = 1.0;             ///< the answer comes within this time, improvement included, (0, 3600] [s]
   double improve_budget = 0.2;          ///< of it, spent at most on improving the first path, not negative [s]
   unsigned max_iterations = 1000000;    ///< of the search for the first path; bounds the memory too, [1, 10000000]
@@ -19,7 +20,7 @@ struct FreeSpaceParams {
   unsigned threads = 1;                 ///< that improve the path side by side, [1, 64]
 
   double gear_change_cost = 3.0;  ///< price of a gear change, as length, not negative [m]
-  double reverse_factor = 1.0;    ///< price of a metre in reverse, as length forward, [1, 100]
+  double reverse_factor = 2.0;    ///< price of a metre in reverse, as length forward, [1, 100]
   double spacing = 0.05;          ///< between points of the result, at most, [0.01, 1] [m]
   double straight_last = 0.0;     ///< the path ends with a straight stretch at least this long, [0, 20] [m]
 

@@ -19,12 +19,15 @@ struct FreeSpacePlan {
   double length = 0.0;          ///< driven, in both gears [m]
   double reverse_length = 0.0;  ///< of it in reverse [m]
   unsigned gear_changes = 0;
-  double min_clearance = 0.0;    ///< of the bare footprint to obstacles and borders, at most 10 m [m]
-  double planning_time = 0.0;    ///< wall clock [s]
-  double first_path_time = 0.0;  ///< until the first valid path was there [s]
-  double first_path_cost = 0.0;  ///< its cost [m]
-  std::string planner;           ///< what found the path
-  std::size_t goal_index = 0;    ///< which of the goals it reaches
+  double min_clearance = 0.0;      ///< of the bare footprint to obstacles and borders, at most 10 m [m]
+  double planning_time = 0.0;      ///< wall clock [s]
+  double first_path_time = 0.0;    ///< until the first valid path was there [s]
+  double first_path_cost = 0.0;    ///< its cost [m]
+  double first_path_length = 0.0;  ///< driven, in both gears [m]
+  unsigned first_path_gear_changes = 0;
+  std::string planner;                ///< what found the path
+  std::size_t goal_index = 0;         ///< which of the goals it reaches
+  std::vector<std::string> warnings;  ///< the start or that goal is nearer to an obstacle than the margin
 };
 
 /// Plans a path for a car-like vehicle from pose to pose inside a region. Thread-safe: const, no shared state.
@@ -37,13 +40,14 @@ class FreeSpacePlanner {
   /// within 1 mm and 0.01 degrees; checked once more, finely and exactly, before it is returned. Its points are at most
   /// `spacing` apart, and between two neighbours curvature and gear are constant up to the rounding of the spacing.
   /// @throws InvalidRequest   a pose is not finite, there is no goal, or start and goals lie over 10 km apart.
-  /// @throws StartBlocked     the footprint collides at the start; the text says with what and by how much.
+  /// A start or goal that is nearer to an obstacle than the margin is left or reached with a smaller margin nearby.
+  /// @throws StartBlocked     the bare footprint collides at the start; the text says with what and by how much.
   /// @throws GoalBlocked      it does at every goal.
   /// @throws NoPath           the search has shown that there is none at its finest resolution, or used its iterations.
   /// @throws PlanningTimeout  time_budget ran out first.
   /// @throws Cancelled        `cancel` was raised; noticed within a few milliseconds.
   FreeSpacePlan plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region,
-                       const CancelToken& cancel) const;
+                     const CancelToken& cancel) const;
 
  private:
   VehicleParams vehicle_;

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "narrow_passage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
+#include <vector>
+
+namespace external_command {
+
+namespace {
+
+constexpr double kCellSize = 0.25;  ///< [m]
+constexpr double kMaxCells = 400'000;
+constexpr double kTolerance = 2e-3;  ///< to which the widest point of a cell's side is found [m]
+constexpr double kSlack = 1e-6;      ///< of a width, for rounding [m]
+
+/// A grid of square cells. The axle gets from cell to cell through their common side, somewhere on which a disc around
+/// it must be free; within a cell nothing is asked.
+class PassageGrid {
+ public:
+  PassageGrid(const FootprintIndex& index, const BoundingBox& area)
+      : index_(index), corner_(area.min), radius_(index.axleDisc()) {
+    const Point2d size = area.max - area.min;
+    cell_size_ = std::max(kCellSize, std::sqrt(size.x() * size.y() / kMaxCells));
+    columns_ = static_cast<long>(size.x() / cell_size_) + 1;
+    rows_ = static_cast<long>(size.y() / cell_size_) + 1;
+  }
+
+  long cellAt(const Point2d& point) const {
+    const Point2d cell = (point - corner_) / cell_size_;
+    if (!(cell.x() >= 0.0 && cell.y() >= 0.0)) return -1;
+    const long column = static_cast<long>(cell.x()), row = static_cast<long>(cell.y());
+    return column < columns_ && row < rows_ ? row * columns_ + column : -1;
+  }
+
+  bool connects(long from, long to) const {
+    std::vector<bool> is_seen(static_cast<std::size_t>(columns_ * rows_));
+    std::vector<long> open{from};
+    is_seen[static_cast<std::size_t>(from)] = true;
+    while (!open.empty()) {
+      const long cell = open.back();
+      open.pop_back();
+      if (cell == to) return true;
+      forEachNeighbour(cell, [&](long next, const Point2d& a, const Point2d& b) {
+        if (is_seen[static_cast<std::size_t>(next)] || !letsPass(a, b)) return;
+        is_seen[static_cast<std::size_t>(next)] = true;
+        open.push_back(next);
+      });
+    }
+    return false;
+  }
+
+  /// A point of a way, and the radius of the disc that is free there [m].
+  struct Spot {
+    Point2d at;
+    double room;
+  };
+
+  /// The least roomy point of the roomiest way (a widest-path search); nullopt if there is none, or stopped.
+  std::optional<Spot> narrowest(long from, long to, const std::function<bool()>& stop) const {
+    struct Entry {
+      double room;
+      long cell;
+      bool operator<(const Entry& other) const { return room < other.room; }
+    };
+    std::vector<double> rooms(static_cast<std::size_t>(columns_ * rows_), -1.0);
+    std::vector<Point2d> places(rooms.size(), centreOf(from));
+    std::priority_queue<Entry> open;
+    rooms[static_cast<std::size_t>(from)] = std::numeric_limits<double>::infinity();
+    open.push({rooms[static_cast<std::size_t>(from)], from});
+    while (!open.empty()) {
+      const Entry here = open.top();
+      open.pop();
+      if (here.cell == to) return Spot{places[static_cast<std::size_t>(to)], here.room};
+      if (here.room <= kTolerance || stop()) return std::nullopt;
+      const auto at = static_cast<std::size_t>(here.cell);
+      if (here.room < rooms[at]) continue;
+      forEachNeighbour(here.cell, [&](long next, const Point2d& a, const Point2d& b) {
+        const auto there = static_cast<std::size_t>(next);
+        if (rooms[there] >= here.room) return;
+        Point2d place = a;
+        const double side = widest(a, b, &place);
+        const double room = std::min(here.room, side);
+        if (room <= rooms[there]) return;
+        rooms[there] = room;
+        places[there] = side < here.room ? place : places[at];
+        open.push({room, next});
+      });
+    }
+    return std::nullopt;
+  }
+
+ private:
+  Point2d centreOf(long cell) const {
+    return corner_ +
+           cell_size_ * Point2d(static_cast<double>(cell % columns_) + 0.5, static_cast<double>(cell / columns_) + 0.5);
+  }
+
+  /// Calls `visit` with each neighbour and the ends of the side towards it.
+  template <class Visit>
+  void forEachNeighbour(long cell, const Visit& visit) const {
+    const long column = cell % columns_, row = cell / columns_;
+    const Point2d low = corner_ + cell_size_ * Point2d(static_cast<double>(column), static_cast<double>(row));
+    const Point2d x(cell_size_, 0.0), y(0.0, cell_size_);
+    if (column > 0) visit(cell - 1, low, low + y);
+    if (column + 1 < columns_) visit(cell + 1, low + x, low + x + y);
+    if (row > 0) visit(cell - columns_, low, low + x);
+    if (row + 1 < rows_) visit(cell + columns_, low + y, low + x + y);
+  }
+
+  bool isInBounds(const Point2d& point) const { return index_.isWithinAxleBounds(point.x(), point.y()); }
+
+  /// Whether the disc is free somewhere on the side. Room changes by no more than the distance moved, so a middle
+  /// without enough of it tells about a stretch to either side.
+  bool letsPass(const Point2d& a, const Point2d& b) const {
+    const Point2d middle = 0.5 * (a + b);
+    const double half = 0.5 * (b - a).norm();
+    const bool is_in_bounds = isInBounds(middle);
+    if (is_in_bounds) {
+      const double room = index_.axleRoom(middle, radius_);
+      if (room >= radius_ - kSlack) return true;
+      if (room + half < radius_ - kSlack) return false;
+    }
+    if (half < kTolerance) return is_in_bounds;
+    return letsPass(a, middle) || letsPass(middle, b);
+  }
+
+  double roomAt(const Point2d& point) const {
+    if (!isInBounds(point)) return 0.0;
+    const double room = index_.axleRoom(point, radius_);
+    return room > 0.0 && room < radius_ && index_.obstacles().filledBy(point) ? -room : room;
+  }
+
+  double widest(const Point2d& a, const Point2d& b, Point2d* place) const {
+    const Point2d middle = 0.5 * (a + b);
+    const double half = 0.5 * (b - a).norm();
+    double best = roomAt(middle);
+    *place = middle;
+    if (half < kTolerance) return best;
+    for (const auto& [from, to] : {std::pair{a, middle}, std::pair{middle, b}}) {
+      const Point2d centre = 0.5 * (from + to);
+      if (roomAt(centre) + 0.5 * half <= std::max(best, kTolerance)) continue;
+      Point2d other = centre;
+      const double room = widest(from, to, &other);
+      if (room > best) best = room, *place = other;
+    }
+    return best;
+  }
+
+  const FootprintIndex& index_;
+  Point2d corner_;
+  double radius_;
+  double cell_size_;
+  long columns_;
+  long rows_;
+};
+
+/// The shortest line from obstacle to obstacle across `place`.
+NarrowPassage measured(const FootprintIndex& index, const Point2d& place) {
+  const std::vector<ObstacleEdge>& edges = index.obstacles().edges();
+  const auto nearest = [&](const std::function<bool(const Point2d&)>& counts) {
+    Point2d best = place;
+    double best_distance = std::numeric_limits<double>::infinity();
+    for (const ObstacleEdge& edge : edges) {
+      const Point2d point = nearestOnSegment(place, edge.begin, edge.end);
+      const double distance = (point - place).norm();
+      if (distance < best_distance && counts(point)) best = point, best_distance = distance;
+    }
+    return best;
+  };
+  Point2d one = nearest([](const Point2d&) { return true; });
+  const Point2d towards = one - place;
+  Point2d other = nearest([&](const Point2d& point) { return (point - place).dot(towards) < 0.0; });
+  return {(one - other).norm(), 0.5 * (one + other)};
+}
+
+}  // namespace
+
+bool isTooNarrow(const FootprintIndex& index, const BoundingBox& area, const Point2d& from, const Point2d& to) {
+  const PassageGrid grid(index, area);
+  const long first = grid.cellAt(from), last = grid.cellAt(to);
+  return first >= 0 && last >= 0 && !grid.connects(first, last);
+}
+
+std::optional<NarrowPassage> narrowestPassage(const FootprintIndex& index, const BoundingBox& area, const Point2d& from,
+                                              const Point2d& to, const std::function<bool()>& stop) {
+  const PassageGrid grid(index, area);
+  const long first = grid.cellAt(from), last = grid.cellAt(to);
+  if (first < 0 || last < 0) return std::nullopt;
+  const auto spot = grid.narrowest(first, last, stop);
+  if (!spot) return std::nullopt;
+  return measured(index, spot->at);
+}
+
+}  // namespace external_command

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "external_command/core/error.h"
+#include "external_command/free_space/collision_checker.h"
+#include "external_command/free_space/free_space_planner.h"
+#include "support/parking_worlds.h"
+#include "support/path_matchers.h"
+#include "support/reference_clearance.h"
+
+namespace external_command {
+namespace {
+
+constexpr double kMarginSlack = 2e-3;  ///< of the margin, that two checks may miss between them [m]
+
+FreeSpaceParams quickParams() {
+  FreeSpaceParams params;
+  params.time_budget = 600.0;  // the iterations bound the work
+  params.improve_budget = 300.0;
+  params.improve_iterations = 1000;
+  return params;
+}
+
+FreeSpacePlan planned(const ParkingWorld& world) {
+  return FreeSpacePlanner(world.vehicle, quickParams()).plan(world.start, {world.goal}, world.region, {});
+}
+
+/// Whether the path comes nearer than the margin only within `reach` [m] of `place`.
+testing::AssertionResult keepsTheMarginAwayFrom(const Pose2d& place, double reach, const FreeSpacePlan& result,
+                                                const ParkingWorld& world) {
+  Path away;
+  for (const ReferencePoint& point : result.path) {
+    if (std::hypot(point.x - place.x, point.y - place.y) > reach) away.push_back(point);
+  }
+  return staysClear(away, world.vehicle, world.region, quickParams().margin - kMarginSlack);
+}
+
+TEST(EasedMargin, LetsAPathEndBetweenCarsNearerThanTheMargin) {
+  const ParkingWorld world = bay(0.12);
+  const FreeSpacePlan result = planned(world);
+  EXPECT_TRUE(joins(result.path, world.start, world.goal));
+  EXPECT_TRUE(isDrivable(result.path, world.vehicle));
+  EXPECT_TRUE(staysClear(result.path, world.vehicle, world.region, 0.03 - kMarginSlack));
+  EXPECT_TRUE(keepsTheMarginAwayFrom(world.goal, 2.0 * world.vehicle.length(), result, world));
+  ASSERT_EQ(result.warnings.size(), 1u);
+  EXPECT_NE(result.warnings[0].find("the goal ("), std::string::npos) << result.warnings[0];
+  EXPECT_NE(result.warnings[0].find("is 0.06 m from non_drivable_roi["), std::string::npos) << result.warnings[0];
+}
+
+TEST(EasedMargin, LetsAPathBeginBetweenThem) {
+  ParkingWorld world = bay(0.12);
+  std::swap(world.start, world.goal);
+  const FreeSpacePlan result = planned(world);
+  EXPECT_TRUE(joins(result.path, world.start, world.goal));
+  ASSERT_EQ(result.warnings.size(), 1u);
+  EXPECT_NE(result.warnings[0].find("the start ("), std::string::npos) << result.warnings[0];
+}
+
+TEST(EasedMargin, IsNotToldWhereThereIsRoom) { EXPECT_TRUE(planned(bay(0.6)).warnings.empty()); }
+
+TEST(EasedMargin, RefusesOnlyWhatTheBareFootprintMeets) {
+  EXPECT_NO_THROW(planned(bay(0.02)));
+  EXPECT_THROW(planned(bay(-0.02)), GoalBlocked);
+  ParkingWorld world = bay(-0.02);
+  std::swap(world.start, world.goal);
+  EXPECT_THROW(planned(world), StartBlocked);
+}
+
+TEST(EasedMargin, HoldsForTheNearObstacleAndNoOther) {
+  Region::Parts parts;
+  const VehicleParams vehicle = smallCar();
+  const double beside = vehicle.width / 2.0;
+  parts.non_drivable.push_back(box({0.0, beside + 0.04 + 0.5}, 100.0, 1.0));  // 4 cm to the left
+  parts.non_drivable.push_back(box({8.0, -beside - 0.3 - 0.5}, 4.0, 1.0));    // 30 cm to the right, ahead
+  const Pose2d place{0.0, 0.0, 0.0};
+  const CollisionChecker checker(vehicle, 0.1, Region(parts), [] {}, {place});
+  EXPECT_TRUE(checker.isFree(place));
+  EXPECT_TRUE(checker.isFree({1.0, 0.015, 0.0}));
+  EXPECT_FALSE(checker.isFree({1.0, 0.03, 0.0}));
+  EXPECT_FALSE(checker.isFree({20.0, 0.0, 0.0}));
+  EXPECT_TRUE(checker.isFree({20.0, -0.07, 0.0}));
+  EXPECT_FALSE(checker.isFree({7.0, -0.25, 0.0}));
+  EXPECT_FALSE(CollisionChecker(vehicle, 0.1, Region(parts)).isFree(place));
+}
+
+}  // namespace
+}  // namespace external_command
