@@ -19,11 +19,6 @@ bool isCusp(const Path& path, std::size_t i) {
   return i > 0 && i + 1 < path.size() && path[i].direction != path[i + 1].direction;
 }
 
-/// What can be had `distance` [m] from `other` by a change of speed of `acceleration` [m/s^2].
-void lowerToReach(const ReferencePoint& other, double distance, double acceleration, ReferencePoint* point) {
-  point->speed = std::min(point->speed, std::sqrt(other.speed * other.speed + 2.0 * acceleration * distance));
-}
-
 /// Length of the circular arc over the chord from `from` to `to`.
 double arcLength(const ReferencePoint& from, const ReferencePoint& to) {
   const double half = 0.5 * std::abs(angleBetween(from.heading, to.heading));
@@ -72,21 +67,27 @@ void setCurvatures(Path* path) {
 
 void limitSpeeds(const VehicleParams& vehicle, Path* path) {
   Path& points = *path;
+  std::vector<double> squares(points.size());  // of the speeds: braking and speeding up change them evenly by distance
+  const double forward = vehicle.max_speed * vehicle.max_speed;
+  const double reverse = vehicle.max_reverse_speed * vehicle.max_reverse_speed;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const bool forward = points[i].direction == Direction::kForward;
-    double limit = forward ? vehicle.max_speed : vehicle.max_reverse_speed;
     const double kappa = std::abs(points[i].kappa);
-    if (kappa > 1e-6) limit = std::min(limit, std::sqrt(vehicle.max_lateral_acceleration / kappa));
-    points[i].speed = std::min(points[i].speed, limit);
-    if (isCusp(points, i)) points[i].speed = 0.0;
+    squares[i] =
+        std::min(points[i].speed * points[i].speed, points[i].direction == Direction::kForward ? forward : reverse);
+    if (kappa > 1e-6) squares[i] = std::min(squares[i], vehicle.max_lateral_acceleration / kappa);
+    if (isCusp(points, i)) squares[i] = 0.0;
   }
-  if (!points.empty()) points.back().speed = 0.0;
+  if (!points.empty()) squares.back() = 0.0;
+  const auto reachable = [&](std::size_t other, std::size_t i, double acceleration) {
+    return squares[other] + 2.0 * acceleration * std::abs(points[i].s - points[other].s);
+  };
   for (std::size_t i = points.size(); i-- > 1;) {
-    lowerToReach(points[i], points[i].s - points[i - 1].s, vehicle.max_deceleration, &points[i - 1]);
+    squares[i - 1] = std::min(squares[i - 1], reachable(i, i - 1, vehicle.max_deceleration));
   }
   for (std::size_t i = 1; i < points.size(); ++i) {
-    lowerToReach(points[i - 1], points[i].s - points[i - 1].s, vehicle.max_acceleration, &points[i]);
+    squares[i] = std::min(squares[i], reachable(i - 1, i, vehicle.max_acceleration));
   }
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].speed = std::sqrt(squares[i]);
 }
 
 double reverseLength(const Path& path) {
