@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "external_command/routing/lane_way_tool.h"
-#include "external_command/routing/reference_path.h"
+#include "external_command/routing/reference_paths.h"
 #include "measure_maps.h"
 #include "path_quality.h"
 #include "statistics.h"
@@ -26,7 +26,8 @@ double now() { return std::chrono::duration<double>(std::chrono::steady_clock::n
 
 class Measurement {
  public:
-  explicit Measurement(std::shared_ptr<const HdMap> map) : map_(std::move(map)), quality_(*map_, vehicle_) {
+  explicit Measurement(std::shared_ptr<const HdMap> map)
+      : map_(std::move(map)), paths_(map_, vehicle_, ReferencePathParams()), quality_(*map_, vehicle_) {
     for (LaneIndex i = 0; i < map_->lanes().size(); ++i) {
       if (map_->lane(i).isDrivable()) lanes_.push_back(i);
     }
@@ -72,7 +73,7 @@ class Measurement {
     try {
       const Route route = router.findRoute(query, CancelToken());
       const double found = now();
-      const ReferencePath path = referencePath(*map_, route, vehicle_, ReferencePathParams(), {});
+      const ReferencePath path = paths_.find(route, {});
       const double end = now();
       route_times_.push_back(found - begin);
       distances_.push_back(route.distance);
@@ -108,6 +109,7 @@ class Measurement {
 
   std::shared_ptr<const HdMap> map_;
   const VehicleParams vehicle_;
+  const ReferencePaths paths_;
   PathQuality quality_;
   std::vector<LaneIndex> lanes_;
   std::mt19937 random_{1};

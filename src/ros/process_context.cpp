@@ -12,6 +12,7 @@
 #include "external_command/ros/map_store.h"
 #include "external_command/ros/parameter_check.h"
 #include "external_command/ros/status.h"
+#include "path_memory.h"
 
 namespace external_command {
 
@@ -201,7 +202,7 @@ Cancellation ProcessContext::cancelById(std::int64_t command_id, const std::stri
   return cancel(*serial, by);
 }
 
-ProcessContext::~ProcessContext() = default;
+ProcessContext::~ProcessContext() { forgetReferencePathsOf(*this); }
 
 void ProcessContext::takeReport(CommandStatus report, const std::string& processor) {
   last_report_ = ros::SteadyTime::now().toSec();

@@ -10,7 +10,6 @@ namespace {
 
 constexpr double kTiny = 1e-6;               // [m]
 constexpr double kQuinticPeak = 5.7735;      // largest second derivative of the quintic below: 10 / sqrt(3)
-constexpr double kLead = 5.0;                // [m]
 constexpr std::size_t kPollInterval = 4096;  // samples between two looks at the cancel token
 constexpr double kFullLock = 0.9;            // share of the vehicle's curvature that a smooth change may take
 
@@ -37,11 +36,10 @@ CoursePoint CourseGeometry::Walker::at(double s) {
   return {begin + share * (line_->points[next_] - begin), line_->limits[next_], lane, lane};
 }
 
-CourseGeometry::CourseGeometry(const HdMap& map, const Route& route, const VehicleParams& vehicle,
-                               const ReferencePathParams& params) {
-  const std::vector<RouteRow> rows = rowsOf(route);
+CourseGeometry::CourseGeometry(const HdMap& map, const std::vector<RouteRow>& rows, double lead_in, double lead_out,
+                               const VehicleParams& vehicle, const ReferencePathParams& params) {
   for (const RouteRow& row : rows) {
-    lines_.push_back(courseLine(map, row, &row == &rows.front() ? kLead : 0.0, &row == &rows.back() ? kLead : 0.0,
+    lines_.push_back(courseLine(map, row, &row == &rows.front() ? lead_in : 0.0, &row == &rows.back() ? lead_out : 0.0,
                                 params.default_speed_limit));
   }
   double done = 0.0;  // on the line of the row

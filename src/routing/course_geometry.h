@@ -20,11 +20,14 @@ struct CoursePoint {
 /// The line that a route draws on the map: centre lines, and from one to the other on lane changes.
 class CourseGeometry {
  public:
-  CourseGeometry(const HdMap& map, const Route& route, const VehicleParams& vehicle, const ReferencePathParams& params);
+  /// @param lead_in, lead_out  by how much the first lane goes on before the start, and the last one after the end, at
+  ///                           most, and as far as they reach [m].
+  CourseGeometry(const HdMap& map, const std::vector<RouteRow>& rows, double lead_in, double lead_out,
+                 const VehicleParams& vehicle, const ReferencePathParams& params);
 
   double length() const { return stretches_.back().end; }  ///< [m]
 
-  /// How far the first lane goes on before the start, and the last one after the end, at most 5 m [m].
+  /// How far the first lane goes on before the start, and the last one after the end [m].
   double leadIn() const { return lines_.front().leadIn(); }
   double leadOut() const { return lines_.back().leadOut(); }
 

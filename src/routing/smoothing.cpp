@@ -27,7 +27,7 @@ class System {
   System(std::size_t count, std::size_t first, std::size_t last, double scale)
       : count_(count), first_(first), last_(last), lambda_(std::pow(scale, 6.0)) {
     held_ = kHeld * std::max(lambda_, 1.0);
-    settled_ = first + static_cast<std::size_t>(kSettled * std::max(scale, 1.0));
+    settled_ = (first == kNone ? 0 : first) + static_cast<std::size_t>(kSettled * std::max(scale, 1.0));
   }
 
   double held() const { return held_; }
@@ -79,9 +79,9 @@ void smooth(double scale, std::size_t first, std::size_t last, std::vector<Point
   const System system(count, first, last, std::min(scale, kMaxScale));
   const std::vector<Row> rows = system.factorize();
   std::vector<Point2d>& p = *points;
-  const Point2d begin = p[first], end = p[last];
+  const Point2d begin = p[first == kNone ? 0 : first], end = p[last == kNone ? count - 1 : last];
   for (Point2d& point : p) point -= begin;  // map coordinates would eat the digits
-  p[last] *= system.held();
+  if (last != kNone) p[last] *= system.held();
   // What is known longest is taken off first: each point waits for one step of its neighbour's, not for three.
   const auto forward = [&](std::size_t i, std::size_t band) {
     for (std::size_t k = band; k >= 1; --k) p[i] -= rows[i].left[k - 1] * p[i - k];
@@ -95,8 +95,8 @@ void smooth(double scale, std::size_t first, std::size_t last, std::vector<Point
   for (std::size_t k = 1; k < kBand; ++k) backward(count - 1 - k, k);
   for (std::size_t i = count - kBand; i-- > 0;) backward(i, kBand);
   for (Point2d& point : p) point += begin;
-  p[first] = begin;
-  p[last] = end;
+  if (first != kNone) p[first] = begin;
+  if (last != kNone) p[last] = end;
 }
 
 }  // namespace external_command

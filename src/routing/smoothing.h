@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "external_command/core/pose.h"
 
 namespace external_command {
 
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();  ///< of a number of points
+
 /// Smooths a curve of evenly spaced points: minimizes the squared distances to the given points plus
 /// `scale`^6 times the squared third differences (a discrete smoothing spline, Whittaker 1923), which leaves circles
 /// as they are and takes out what is shorter than some `scale` points (at most 30). The points `first` and `last` stay
-/// where they are. O(n).
+/// where they are, but for kNone. O(n).
 void smooth(double scale, std::size_t first, std::size_t last, std::vector<Point2d>* points);
 
 }  // namespace external_command
