@@ -5,13 +5,16 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <queue>
+#include <utility>
 
 namespace external_command {
 
 namespace {
 
-constexpr double kMaxCells = 400'000;  ///< bounds time and memory
+constexpr double kMaxCells = 600'000;  ///< bounds time and memory; more than the index has, so that cells agree
 
 /// Prices of a step from cell to cell, by the room there beyond what the vehicle needs. A step straight on is 5 times
 /// that, one across 7 times.
@@ -20,11 +23,11 @@ struct Price {
   std::uint16_t price;
 };
 constexpr std::array<Price, 4> kPrices{{{1.5, 4}, {0.7, 6}, {0.0, 10}, {-0.3, 40}}};
-constexpr std::uint16_t kBlockedPrice = 2000;  ///< else a long detour would cost more than a wall
-constexpr std::uint16_t kClosedPrice = 1500;
+constexpr std::uint16_t kBlockedPrice = 60'000;  ///< some kilometres in the free: no detour costs as much
+constexpr std::uint16_t kClosedPrice = 30'000;
 constexpr double kClosedRadius = 2.0;  ///< [m]
 constexpr std::uint32_t kStraight = 5, kAcross = 7;
-constexpr std::uint32_t kUnreached = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint64_t kUnreached = std::numeric_limits<std::uint64_t>::max();
 
 }  // namespace
 
@@ -59,15 +62,26 @@ Point2d GuideMap::centreOf(long cell) const {
          cell_size_ * Point2d(static_cast<double>(cell % columns_) + 0.5, static_cast<double>(cell / columns_) + 0.5);
 }
 
-/// With one bucket per cost, as many as the dearest step needs.
+/// Dijkstra's search with a bucket for each cost that a step in the free leads to, and a heap for the few dearer ones.
 std::vector<GuideMap::Cost> GuideMap::costsTo(long target, long from) const {
+  using Entry = std::pair<Cost, long>;
   std::vector<Cost> costs(prices_.size(), kUnreached);
-  std::vector<std::vector<std::int32_t>> buckets(kAcross * kBlockedPrice + 1);
-  costs[static_cast<std::size_t>(target)] = 0;
-  buckets[0].push_back(static_cast<std::int32_t>(target));
-  std::size_t waiting = 1;
-  for (Cost now = 0; waiting > 0; ++now) {
-    std::vector<std::int32_t>& bucket = buckets[now % buckets.size()];
+  std::vector<std::vector<long>> buckets(kAcross * kPrices.back().price + 1);
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> dear;
+  const auto add = [&](Cost now, Cost cost, long cell) {
+    costs[static_cast<std::size_t>(cell)] = cost;
+    if (cost - now >= buckets.size()) {
+      dear.emplace(cost, cell);
+    } else {
+      buckets[cost % buckets.size()].push_back(cell);
+    }
+    return cost - now < buckets.size() ? 1U : 0U;
+  };
+  std::size_t waiting = add(0, 0, target);
+  for (Cost now = 0; waiting > 0 || !dear.empty(); ++now) {
+    if (waiting == 0) now = dear.top().first;
+    std::vector<long>& bucket = buckets[now % buckets.size()];
+    for (; !dear.empty() && dear.top().first == now; dear.pop(), ++waiting) bucket.push_back(dear.top().second);
     for (std::size_t b = 0; b < bucket.size(); ++b) {
       const long cell = bucket[b];
       --waiting;
@@ -77,12 +91,10 @@ std::vector<GuideMap::Cost> GuideMap::costsTo(long target, long from) const {
       for (long dr = -1; dr <= 1; ++dr) {
         for (long dc = -1; dc <= 1; ++dc) {
           if (column + dc < 0 || row + dr < 0 || column + dc >= columns_ || row + dr >= rows_) continue;
-          const auto next = static_cast<std::size_t>(cell + dr * columns_ + dc);
-          const Cost through = now + (dr != 0 && dc != 0 ? kAcross : kStraight) * prices_[next];
-          if (through >= costs[next]) continue;
-          costs[next] = through;
-          buckets[through % buckets.size()].push_back(static_cast<std::int32_t>(next));
-          ++waiting;
+          const long next = cell + dr * columns_ + dc;
+          const Cost price = prices_[static_cast<std::size_t>(next)];
+          const Cost through = now + (dr != 0 && dc != 0 ? kAcross : kStraight) * price;
+          if (through < costs[static_cast<std::size_t>(next)]) waiting += add(now, through, next);
         }
       }
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "footprint_index.h"
@@ -29,7 +30,7 @@ class GuideMap {
   void close(const std::vector<GuidePoint>& way, std::size_t first, std::size_t last);
 
  private:
-  using Cost = std::uint32_t;
+  using Cost = std::uint64_t;
 
   long cellAt(const Point2d& point) const;
   Point2d centreOf(long cell) const;

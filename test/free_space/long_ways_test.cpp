@@ -36,7 +36,7 @@ FreeSpacePlan planned(const ParkingCase& task, const FreeSpaceParams& params = q
 }
 
 TEST(LongWays, AreFoundThroughManyGatesAndBetweenManyPosts) {
-  for (const char* name : {"slalom_4_7_4", "slalom_8_7_4", "slalom_15_7_4", "lot_200x150_500", "maze_6", "road_1000"}) {
+  for (const char* name : {"slalom_4_7_4", "slalom_8_7_4", "slalom_15_7_4", "lot_200x150_500", "maze_6", "road_3000"}) {
     const ParkingCase& task = madeCase(name);
     const FreeSpacePlan result = planned(task);
     EXPECT_TRUE(joins(result.path, task.start, task.goal)) << name;
