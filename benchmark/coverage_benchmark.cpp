@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
@@ -32,6 +33,8 @@ with columns, walls or a narrow neck, and random concave ones with holes, 60 m t
   --time-budget S   for each field (5)
   --laps N          along border and holes; -1: as many as serve the objective (-1)
   --objective NAME  shortest or fewest_turns (shortest)
+  --gear-cost M     price of a change of gear, as length (the planner's default)
+  --no-reverse      plan for a vehicle that is not to reverse
   --target SHARE    of the reachable area that is to be swept, what is more only where it costs little (0.993)
   --paths DIR       write each path as DIR/NAME.json: [[x, y, theta, direction, tool], ...]
   --svg DIR         draw each path as DIR/NAME.svg: swept green, left out red
@@ -63,7 +66,7 @@ struct Summary {
   std::size_t fields = 0;
   std::size_t faulty = 0;
   std::size_t outside = 0;
-  std::vector<double> covered, ratios, large_ratios, times;
+  std::vector<double> covered, ratios, large_ratios, changes, times;
 };
 
 CoverageObjective objectiveOf(const std::string& name) {
@@ -82,6 +85,8 @@ Options parse(CommandLine line) {
                                {"--time-budget", [&] { params.time_budget = line.number(); }},
                                {"--laps", [&] { params.headland_laps = line.integer(-1); }},
                                {"--objective", [&] { params.objective = objectiveOf(line.value()); }},
+                               {"--gear-cost", [&] { params.gear_change_cost = line.number(); }},
+                               {"--no-reverse", [&] { params.reverse_to_turn = false; }},
                                {"--target", [&] { params.target_coverage = line.number(); }},
                                {"--paths", [&] { options.paths = line.value(); }},
                                {"--svg", [&] { options.drawings = line.value(); }}});
@@ -124,6 +129,7 @@ void report(const CoverageCheck& check, double seconds, double cpu_seconds, Summ
   summary->covered.push_back(check.covered_reachable);
   summary->ratios.push_back(check.length_ratio);
   if (check.free_area > kLargeField) summary->large_ratios.push_back(check.length_ratio);
+  summary->changes.push_back(static_cast<double>(check.gear_changes) / std::max(1.0, static_cast<double>(check.turns)));
   summary->times.push_back(seconds);
 }
 
@@ -162,9 +168,10 @@ void print(const Summary& summary) {
       "planned %zu of %zu; outside %zu, other faults %zu; swept of the reachable: median %.2f %%, least %.2f %%",
       summary.times.size(), summary.fields, summary.outside, summary.faulty - summary.outside,
       100.0 * median(summary.covered), 100.0 * least(summary.covered));
-  std::printf("; length ratio: median %.3f, largest %.3f, over 1.2 ha %.3f; time: median %.3f s, slowest %.3f s\n",
-              median(summary.ratios), largest(summary.ratios), largest(summary.large_ratios), median(summary.times),
-              largest(summary.times));
+  std::printf("; length ratio: median %.3f, largest %.3f, over 1.2 ha %.3f", median(summary.ratios),
+              largest(summary.ratios), largest(summary.large_ratios));
+  std::printf("; gear changes a turn: median %.2f, most %.2f; time: median %.3f s, slowest %.3f s\n",
+              median(summary.changes), largest(summary.changes), median(summary.times), largest(summary.times));
 }
 
 int run(const CommandLine& line) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "draft.h"
 #include "plan.h"
@@ -54,7 +55,7 @@ class Contest {
     for (Entry& entry : entries_) {
       if (!best.plan.steps.empty() && field_.timeUsed() > kTimeForSettling) break;
       Plan plan = settled(field_, std::move(entry.plan), effort_.rounds, &routes_);
-      const double cost = costOf(field_, plan.length, plan.covered, goal_);
+      const double cost = costOf(field_, plan.effort, plan.length, plan.covered, goal_);
       if (best.plan.steps.empty() || cost < best.cost) best = {std::move(plan), cost};
     }
     return std::move(best.plan);
@@ -85,7 +86,9 @@ class Contest {
   bool tryPrice(double share) {
     const double price = share / field_.width();
     bool improved = false;
-    for (const Draft& draft : makeDrafts(field_, empty_, price, effort_.drafts)) {
+    std::vector<Draft> drafts = makeDrafts(field_, empty_, price, effort_.drafts);
+    if (auto laps = draftOfLaps(field_, empty_, price)) drafts.insert(drafts.begin(), *std::move(laps));
+    for (const Draft& draft : drafts) {
       for (const double choosy : effort_.choosy) {
         if (!entries_.empty() && field_.timeUsed() > kTimeForTrying) return false;
         improved = enter(planOf(field_, worksOf(field_, draft, price, choosy), price, &routes_)) || improved;
@@ -96,7 +99,7 @@ class Contest {
 
   /// @return whether that is the best so far.
   bool enter(Plan plan) {
-    const double cost = costOf(field_, plan.length, plan.covered, goal_);
+    const double cost = costOf(field_, plan.effort, plan.length, plan.covered, goal_);
     const auto better = [&](const Entry& entry) { return entry.cost <= cost; };
     const auto place = std::find_if_not(entries_.begin(), entries_.end(), better);
     const bool is_best = place == entries_.begin();

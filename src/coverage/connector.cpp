@@ -15,11 +15,14 @@ namespace {
 
 /// How far before or beyond its ends a turn may begin and end, in turning radii: straight on, or backing up.
 constexpr std::array<double, 11> kShifts = {0.0, 0.3, -0.3, 0.6, -0.6, 1.0, -1.0, 1.6, -1.6, 2.5, -2.5};
-constexpr double kLongest = 4.0;  ///< how much longer than the shortest a turn may be, in turning radii
+constexpr double kLongest = 4.0;      ///< how much dearer than the cheapest a turn may be, in turning radii
+constexpr double kMostChanges = 4.0;  ///< and how many changes of gear on top of that
 constexpr std::size_t kMostTried = 600;
 constexpr std::array<double, 2> kBacked = {0.4, 1.0};  ///< shares of a swath that are backed along
-constexpr double kRoom = 8.0;          ///< around both ends that a search looks at first, in turning radii
-constexpr unsigned kMostSteps = 2500;  ///< of a search; a swath that is harder to get to is not worth it
+constexpr double kRoom = 8.0;              ///< around both ends that a search looks at first, in turning radii
+constexpr double kMostGearPrice = 1000.0;  ///< that a search takes [m]
+constexpr double kMostSearching = 0.5;     ///< [s]
+constexpr unsigned kMostSteps = 2500;      ///< of a search; a swath that is harder to get to is not worth it
 
 struct Candidate {
   double cost = 0.0;
@@ -38,13 +41,20 @@ Curve curveOf(const Pose2d& from, const Candidate& candidate) {
   return curve;
 }
 
-/// Changes of gear on the way, arriving and leaving forward.
-unsigned gearChangesOf(const Curve& curve) {
-  if (curve.arcs.empty()) return 0;
-  return curve.gearChanges() + (curve.arcs.front().length < 0.0) + (curve.arcs.back().length < 0.0);
-}
-
 }  // namespace
+
+std::vector<SteeringCurve> turnsWithoutObstacles(const Pose2d& from, const Pose2d& to, double radius,
+                                                 double gear_price) {
+  std::vector<SteeringCurve> turns = reedsSheppCurves(from, to, radius, gear_price);
+  for (SteeringCurve& turn : turns) {
+    if (turn.arcs.empty()) continue;
+    turn.cost += gear_price * ((turn.arcs.front().length < 0.0) + (turn.arcs.back().length < 0.0));
+  }
+  for (SteeringCurve& turn : dubinsCurves(from, to, radius)) turns.push_back(std::move(turn));
+  std::stable_sort(turns.begin(), turns.end(),
+                   [](const SteeringCurve& a, const SteeringCurve& b) { return a.cost < b.cost; });
+  return turns;
+}
 
 std::optional<Curve> Connector::connect(const Curve* driven, const Pose2d& from, const Curve& next) const {
   if (auto curve = turn(from, next.start)) return curve;
@@ -74,7 +84,7 @@ std::optional<Curve> Connector::turn(const Pose2d& from, const Pose2d& to) const
 }
 
 std::optional<Curve> Connector::shortTurn(const Pose2d& from, const Pose2d& to) const {
-  const auto curves = reedsSheppCurves(from, to, field_.radius(), field_.params().gear_change_cost);
+  const auto curves = turnsWithoutObstacles(from, to, field_.radius(), field_.gearPrice());
   const double most = curves.front().cost + 0.5 * field_.radius();
   for (const SteeringCurve& steering : curves) {
     if (steering.cost > most) break;
@@ -87,8 +97,9 @@ std::optional<Curve> Connector::shortTurn(const Pose2d& from, const Pose2d& to) 
 
 std::optional<Curve> Connector::shiftedTurn(const Pose2d& from, const Pose2d& to) const {
   std::vector<Candidate> candidates;
-  const double price = field_.params().gear_change_cost;
-  const double most = reedsSheppLength(from, to, field_.radius()) + kLongest * field_.radius();
+  const double price = field_.gearPrice();
+  const double most = turnsWithoutObstacles(from, to, field_.radius(), price).front().cost +
+                      kLongest * field_.radius() + kMostChanges * price;
   for (const double first : kShifts) {
     const double before = first * field_.radius();
     const Pose2d begin = straightOn(from, before);
@@ -98,11 +109,11 @@ std::optional<Curve> Connector::shiftedTurn(const Pose2d& from, const Pose2d& to
       const Pose2d end = straightOn(to, -after);
       const double shifted = std::abs(before) + std::abs(after);
       if (shifted + (end.position() - begin.position()).norm() > most || !field_.isFree(end)) continue;
-      for (SteeringCurve& steering : reedsSheppCurves(begin, end, field_.radius(), price)) {
+      for (SteeringCurve& steering : turnsWithoutObstacles(begin, end, field_.radius(), price)) {
         if (steering.cost + shifted > most) break;
         Candidate candidate{0.0, before, after, std::move(steering.arcs)};
         const Curve curve = curveOf(from, candidate);
-        candidate.cost = curve.length() + price * gearChangesOf(curve);
+        candidate.cost = curve.length() + price * curve.gearChangesBetween();
         candidates.push_back(std::move(candidate));
       }
     }
@@ -136,10 +147,10 @@ std::optional<Curve> Connector::searchWithin(const std::optional<BoundingBox>& b
   FreeSpaceParams params;
   params.planner = "hybrid_astar";
   params.margin = field_.params().margin;
-  params.time_budget = 0.5;
+  params.time_budget = std::clamp((1.0 - field_.timeUsed()) * field_.params().time_budget, 1e-3, kMostSearching);
   params.max_iterations = kMostSteps;
   params.improve_budget = 0.0;
-  params.gear_change_cost = field_.params().gear_change_cost;
+  params.gear_change_cost = std::min(field_.gearPrice(), kMostGearPrice);
   params.reverse_factor = 1.0;  // a metre swept is a metre, in either gear
   params.spacing = 0.25;
   try {

@@ -2,11 +2,18 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "curve.h"
 #include "field.h"
 
 namespace external_command {
+
+/// Ways from pose to pose as if nothing were in the way, cheapest first, for a vehicle that arrives and leaves forward:
+/// the Reeds-Shepp words, and those of Dubins, which hold loops that turn forward only. Never empty.
+/// @param gear_price  of a change of gear, as length [m].
+std::vector<SteeringCurve> turnsWithoutObstacles(const Pose2d& from, const Pose2d& to, double radius,
+                                                 double gear_price);
 
 /// Finds turns and transfers: ways for the vehicle from pose to pose within the area.
 class Connector {

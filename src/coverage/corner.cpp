@@ -115,7 +115,7 @@ void CornerSearch::tryCurve(double leave, double enter, const Curve& curve) {
     if (fills && enter < 1e-3) continue;
     CornerWay way{leave, enter, curve, fills, 0.0};
     way.cost = costOf({first, curve, partOf(after_.curve, fills ? 0.0 : enter, after_.length)});
-    if (fills) way.cost += enter + 2.0 * field_.params().gear_change_cost;
+    if (fills) way.cost += enter + 2.0 * field_.gearPrice();
     if (!best_ || way.cost < best_->cost) best_ = way;
   }
 }

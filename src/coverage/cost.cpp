@@ -9,7 +9,7 @@ namespace external_command {
 namespace {
 
 constexpr double kLowPrice = 120.0;   ///< of a whole area below kLowCoverage, in lengths of a perfect path
-constexpr double kShortPrice = 10.0;  ///< the same below the target
+constexpr double kShortPrice = 16.0;  ///< the same below the target
 constexpr double kExtraPrice = 1.0;   ///< the same beyond the target
 constexpr double kLongPrice = 6.0;    ///< of length beyond what is usual for the size of the field
 
@@ -23,10 +23,10 @@ double longFor(const Field& field, double goal) {
 
 }  // namespace
 
-double costOf(const Field& field, double length, double covered, double goal) {
+double costOf(const Field& field, double effort, double length, double covered, double goal) {
   const double share = covered / goal, missing = field.params().target_coverage - share;
-  const double ratio = length * field.width() / std::max(covered, 1e-3);
-  return ratio + kLongPrice * std::max(0.0, ratio - longFor(field, goal)) +
+  const double perfect = std::max(covered, 1e-3) / field.width(), ratio = length / perfect;
+  return effort / perfect + kLongPrice * std::max(0.0, ratio - longFor(field, goal)) +
          (missing > 0.0 ? kShortPrice : kExtraPrice) * missing + kLowPrice * std::max(0.0, kLowCoverage - share);
 }
 

@@ -24,6 +24,7 @@ void CoverageParams::validate() const {
   requireWithin("headland_laps", headland_laps, -1, 50);
   if (swath_heading && !std::isfinite(*swath_heading)) throw InvalidParameter("coverage/swath_heading is not finite");
   requireWithin("target_coverage", target_coverage, 0.5, 1.0);
+  requireWithin("max_gap", max_gap, 0.0, 1e6);
   requireWithin("gear_change_cost", gear_change_cost, 0.0, 1e3);
   requireWithin("spacing", spacing, 0.05, 100.0);
   requireWithin("max_grid_rows", static_cast<double>(max_grid_rows), 1, 1e7);

@@ -142,9 +142,7 @@ class PathBuilder {
 
   /// As if nothing were in the way.
   double costOfWay(const Pose2d& from, const Pose2d& to) const {
-    const double price = field_.params().gear_change_cost;
-    const SteeringCurve way = reedsSheppCurves(from, to, field_.radius(), price).front();
-    return way.cost + (!way.arcs.empty() && way.arcs.back().length < 0.0 ? price : 0.0);
+    return turnsWithoutObstacles(from, to, field_.radius(), field_.gearPrice()).front().cost;
   }
 
   void work(std::size_t index, const Approach& approach) {

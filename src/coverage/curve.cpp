@@ -15,8 +15,14 @@ constexpr double kEmptyArc = 1e-9;  ///< [m]
 /// Pure pursuit along a polyline, the progress on which never goes back.
 class Follower {
  public:
-  Follower(const Polyline& line, double from, double to, double max_kappa, const Pose2d& start)
-      : line_(line), s_(from), to_(to), max_kappa_(max_kappa), step_(0.1 / max_kappa), pose_(start) {
+  Follower(const Polyline& line, double from, double to, double max_kappa, const Pose2d& start, double ahead)
+      : line_(line),
+        s_(from),
+        to_(to),
+        max_kappa_(max_kappa),
+        step_(0.1 / max_kappa),
+        ahead_(ahead * 3.0 * step_),
+        pose_(start) {
     curve_.start = start;
   }
 
@@ -33,8 +39,7 @@ class Follower {
 
  private:
   double steering() const {
-    const double ahead = 3.0 * step_;
-    const Point2d offset = target(s_ + ahead) - pose_.position();
+    const Point2d offset = target(s_ + ahead_) - pose_.position();
     const double lateral = cross(unitVector(pose_.heading), offset);
     const double kappa = 2.0 * lateral / std::max(offset.squaredNorm(), 1e-6);
     return std::abs(kappa) < 1e-4 * max_kappa_ ? 0.0 : std::clamp(kappa, -max_kappa_, max_kappa_);
@@ -60,7 +65,8 @@ class Follower {
   double s_;
   double to_;
   double max_kappa_;
-  double step_;  ///< [m]
+  double step_;   ///< [m]
+  double ahead_;  ///< that the point steered for is [m]
   Pose2d pose_;
   Curve curve_;
 };
@@ -77,6 +83,11 @@ unsigned Curve::gearChanges() const {
   unsigned changes = 0;
   for (std::size_t i = 1; i < arcs.size(); ++i) changes += (arcs[i].length < 0.0) != (arcs[i - 1].length < 0.0);
   return changes;
+}
+
+unsigned Curve::gearChangesBetween() const {
+  if (arcs.empty()) return 0;
+  return gearChanges() + (arcs.front().length < 0.0) + (arcs.back().length < 0.0);
 }
 
 void Curve::append(const ArcSegment& arc) {
@@ -140,12 +151,14 @@ std::vector<Pose2d> posesAlong(const Curve& curve, double reach, double step) {
 }
 
 Curve follow(const Polyline& line, double from, double to, double max_kappa) {
-  return Follower(line, from, to, max_kappa, line.poseAt(from)).drive();
+  return Follower(line, from, to, max_kappa, line.poseAt(from), 1.0).drive();
 }
 
-Curve followRound(const Polyline& line, double length, double max_kappa) {
+Curve followRound(const Polyline& line, double length, double max_kappa, double ahead) {
   Curve curve = follow(line, 0.0, length, max_kappa);
-  for (int round = 0; round < kRounds; ++round) curve = Follower(line, 0.0, length, max_kappa, curve.end()).drive();
+  for (int round = 0; round < kRounds; ++round) {
+    curve = Follower(line, 0.0, length, max_kappa, curve.end(), ahead).drive();
+  }
   return curve;
 }
 

@@ -19,6 +19,9 @@ struct Curve {
   Pose2d end() const { return external_command::advance(start, arcs); }
   unsigned gearChanges() const;
 
+  /// Changes of gear of a vehicle that arrives at the curve and leaves it forward.
+  unsigned gearChangesBetween() const;
+
   /// Adds an arc at the end, melted with the last where they are alike.
   void append(const ArcSegment& arc);
   void append(const std::vector<ArcSegment>& more);
@@ -48,7 +51,8 @@ std::vector<Pose2d> posesAlong(const Curve& curve, double reach, double step);
 Curve follow(const Polyline& line, double from, double to, double max_kappa);
 
 /// The same once round a closed line of `length` [m], so that the end meets the start. `line` goes on beyond it.
-Curve followRound(const Polyline& line, double length, double max_kappa);
+/// @param ahead  how far the point steered for is, as multiple of the usual: farther, the curve cuts corners more.
+Curve followRound(const Polyline& line, double length, double max_kappa, double ahead);
 
 /// Corners of the strip of `width` [m] that a straight or bent bit of work sweeps: pieces of the curve on which the
 /// strip's edges stay within a centimetre of straight.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "field.h"
@@ -22,6 +23,10 @@ struct Draft {
 /// Drafts with the numbers of laps that look best, cheapest first, at most `count`.
 /// @param price  of a square metre that is not swept [m/m^2].
 std::vector<Draft> makeDrafts(const Field& field, const CoverageGrid& empty, double price, std::size_t count);
+
+/// Laps from the border inwards until none fits, and one around each hole: what sweeps rings and corridors with hardly
+/// a turn. None for areas that are wide, or for which a number of laps is given.
+std::optional<Draft> draftOfLaps(const Field& field, const CoverageGrid& empty, double price);
 
 /// The draft's laps, and its swaths.
 /// @param choosy  how much dearer than really the turns are taken to be: only long swaths are worth it then, and what

@@ -16,6 +16,7 @@ constexpr double kCheckStep = 0.1;       ///< most that a corner moves between t
 constexpr double kMaxCells = 2.5e6;      ///< of the grid; sets its finest cell
 constexpr double kCellsPerSwath = 12.0;  ///< across
 constexpr double kMaxExtent = 20e3;      ///< of the area [m]
+constexpr double kUnwanted = 5000.0;     ///< price of a change of gear for a vehicle that is not to reverse [m]
 
 Region regionOf(const CoverageArea& area, const CoverageParams& params, const Point2d& origin,
                 const Checkpoint& checkpoint) {
@@ -73,6 +74,10 @@ void Field::poll() const {
   if (timeUsed() < 1.0) return;
   throw PlanningTimeout(text("the area was not planned within ", seconds(params_.time_budget),
                              " (time_budget); give it more time, or divide the area"));
+}
+
+double Field::gearPrice() const {
+  return params_.reverse_to_turn ? params_.gear_change_cost : std::max(params_.gear_change_cost, kUnwanted);
 }
 
 double Field::timeUsed() const {

@@ -42,6 +42,7 @@ class Field {
 
   double width() const { return params_.swath_width; }
   double radius() const { return vehicle_.min_turning_radius; }
+  double gearPrice() const;                                                      ///< of a change of gear, as length [m]
   double front() const { return vehicle_.wheelbase + vehicle_.front_overhang; }  ///< rear axle to the nose [m]
 
   bool isFree(const Pose2d& pose) const { return checker_.isFree(pose); }

@@ -155,6 +155,8 @@ Shapes unionOf(std::vector<Shapes> all, const Checkpoint& checkpoint) {
 
 double perimeterOf(const Shape& shape) { return bg::perimeter(shape.outer()); }
 
+double borderLengthOf(const Shape& shape) { return bg::perimeter(shape); }
+
 Shapes difference(const Shapes& from, const Shapes& what) {
   Shapes result;
   bg::difference(from, what, result);

@@ -37,6 +37,8 @@ double areaOf(const shapes::Shapes& shapes);  ///< [m^2]
 
 double perimeterOf(const shapes::Shape& shape);  ///< of its outer ring [m]
 
+double borderLengthOf(const shapes::Shape& shape);  ///< of all its rings [m]
+
 double areaOf(const shapes::Ring& ring);  ///< [m^2], positive for a border
 
 /// The convex hull, as a border.

@@ -2,6 +2,7 @@
 #include "laps.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -14,10 +15,12 @@ namespace external_command {
 namespace {
 
 constexpr double kTighter = 0.97;      ///< laps bend a little less than the vehicle can, to leave room for rounding
+constexpr double kSwingRoom = 0.02;    ///< besides the margin, for rounding [m]
 constexpr double kMinSide = 0.3;       ///< shorter sides only disturb [m]
 constexpr double kEntrySpacing = 1.0;  ///< between places at which a closed lap may begin [m]
 constexpr double kPoseStep = 0.2;      ///< [m]
-constexpr double kBlocked = -1e-3;     ///< turn of a corner that is none but for something in the way [rad]
+constexpr std::array<double, 3> kAhead = {1.0, 3.0, 6.0};  ///< as followRound()
+constexpr double kBlocked = -1e-3;  ///< turn of a corner that is none but for something in the way [rad]
 
 /// A lap along one ring.
 class LapBuilder {
@@ -37,10 +40,19 @@ class LapBuilder {
  private:
   double maxKappa() const { return kTighter * field_.vehicle().maxKappa(); }
 
-  /// The ring bends gently everywhere: driven as it is, either way round.
+  /// The ring bends gently everywhere: driven as it is, either way round; or its vertices are cut a little, where the
+  /// nose would not get round them.
   std::optional<Work> roundLap() const {
+    for (const double ahead : kAhead) {
+      field_.poll();
+      if (auto work = roundLap(ahead)) return work;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Work> roundLap(double ahead) const {
     const Polyline line(ring_.part(0.0, 1.2 * ring_.length()));
-    const Curve curve = followRound(line, ring_.length(), maxKappa());
+    const Curve curve = followRound(line, ring_.length(), maxKappa(), ahead);
     std::optional<Work> work;
     for (const Curve& way : {curve, turnedRound(curve)}) {
       if (!field_.isFree(way)) continue;
@@ -181,12 +193,21 @@ class LapBuilder {
   std::vector<std::optional<CornerWay>> ways_;
 };
 
+/// How much farther than half a swath the outermost lap is from the border, so that the nose gets round a corner of it
+/// without backing into it first [m].
+double swingOf(const Field& field) {
+  if (field.params().reverse_to_turn) return 0.0;
+  const double nose = std::hypot(field.radius() + field.vehicle().width / 2.0, field.front()) - field.radius();
+  return std::max(0.0, nose + field.params().margin + kSwingRoom - field.width() / 2.0);
+}
+
 }  // namespace
 
-std::vector<Work> planLap(const Field& field, int number, int around_holes, double price, CoverageGrid* grid) {
+std::vector<Work> planLap(const Field& field, int number, const LapRule& rule, double price, CoverageGrid* grid) {
   const double pitch = field.width() - field.params().overlap;
-  const double border = field.width() / 2.0 + number * pitch;
-  const double most = around_holes > 0 ? field.width() / 2.0 + around_holes * pitch : 0.0;
+  const double border = field.width() / 2.0 + swingOf(field) + number * pitch;
+  const double kept = rule.overlaps ? 0.0 : rule.around_holes * pitch;
+  const double most = rule.around_holes > 0 ? field.width() / 2.0 + kept : 0.0;
   const shapes::Shapes lines = inset(field.workable(), border, std::min(border, most), field.checkpoint());
   const double inner = border + field.width() / 2.0;
   grid->clear(kInner | kOwn);
@@ -208,7 +229,7 @@ std::vector<Work> planLap(const Field& field, int number, int around_holes, doub
   for (auto shape = lines.begin(); shape != lines.end(); ++shape) {
     add(shape->outer(), shape != main);
     for (const auto& hole : shape->inners()) {
-      if (number < around_holes) add(hole, true);
+      if (number < rule.around_holes) add(hole, true);
     }
   }
   return works;

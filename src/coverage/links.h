@@ -18,8 +18,8 @@ struct Step {
   std::size_t way = 0;
 };
 
-/// About how far it is from the end of one piece of work to the start of another: the Reeds-Shepp distance, and what
-/// the way round things in between adds. Remembers what it has worked out.
+/// What it takes to get from the end of one piece of work to the start of another: about, from the cheapest turn that
+/// there seems to be room for and what the way round things in between adds; or as worked out. Remembers both.
 class Links {
  public:
   static constexpr double kNoWay = 1e5;  ///< price of a way that was not found [m]
@@ -31,8 +31,11 @@ class Links {
   const Pose2d& startOf(const Step& step) const { return works_[step.work].startOf(step.way); }
   const Pose2d& endOf(const Step& step) const { return works_[step.work].endOf(step.way); }
 
-  /// From the end of `from`, or from the vehicle's start without it; 0 if there is no start, or nothing to go to [m].
-  double price(const Step* from, const Step* to);
+  /// From the end of `from`, or from the vehicle's start without it; 0 if there is no start, or nothing to go to.
+  /// The length, and the price of the changes of gear [m].
+  double price(const Step* from, const Step* to) { return static_cast<double>(costOf(from, to).price); }
+
+  double length(const Step* from, const Step* to) { return static_cast<double>(costOf(from, to).length); }  ///< [m]
 
   /// Works out the way that price() only guesses at. @return whether it differs.
   bool settle(const Step* from, const Step* to);
@@ -53,7 +56,20 @@ class Links {
     return price(before, &first) + price(&last, after) - price(before, after);
   }
 
+  /// The same in length, of one step [m].
+  double longer(const Step* before, const Step& step, const Step* after) {
+    return length(before, &step) + length(&step, after) - length(before, after);
+  }
+
  private:
+  struct Cost {
+    float price;   ///< [m]
+    float length;  ///< [m]
+  };
+
+  Cost costOf(const Step* from, const Step* to);
+  Cost guess(const Pose2d& from, const Pose2d& to);
+  bool hasRoom(const Pose2d& from, const SteeringCurve& turn) const;
   static std::uint64_t idOf(const Step* from, const Step* to);
 
   const Field& field_;
@@ -62,7 +78,7 @@ class Links {
   Curve curveOf(const Step& step) const { return works_[step.work].curveOf(step.way); }
   Pose2d beginOf(const Step* from) const { return from == nullptr ? *field_.start() : endOf(*from); }
 
-  std::unordered_map<std::uint64_t, float> known_;
+  std::unordered_map<std::uint64_t, Cost> known_;
   std::unordered_map<std::uint64_t, std::optional<Curve>> ways_;
 };
 

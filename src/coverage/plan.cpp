@@ -2,10 +2,13 @@
 #include "plan.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <set>
 
 #include "swaths.h"
 #include "tally.h"
 #include "tour.h"
+#include "uncovered.h"
 
 namespace external_command {
 
@@ -14,6 +17,8 @@ namespace {
 constexpr double kDear = 12.0;  ///< price of a square metre, times the width, for which the last swaths are looked for
 constexpr int kMostDead = 10;   ///< rounds of leaving out what no way leads to
 constexpr double kTimeForChanges = 0.7;  ///< share of the budget after which a plan is settled as it is
+constexpr double kTimeForGaps = 0.8;     ///< the same for the gaps
+constexpr double kMoreForGaps = 0.02;    ///< of length, as share
 constexpr int kRounds = 4;               ///< of swaths for what is left
 constexpr double kCheapTurn = 0.3;       ///< price of a turn in their search, in radii: the tour knows the real one
 
@@ -45,6 +50,7 @@ class Planner {
       if (round == 1) putIn();
       leaveOut();
     }
+    fillGaps();
     for (int round = 0; round < kMostDead && settleLinks(); ++round) leaveOut();
     plan_.links.clear();
     for (long i = 0; at(i) != nullptr; ++i) plan_.links.push_back(links_.way(at(i - 1), at(i)));
@@ -55,6 +61,7 @@ class Planner {
   Plan finish() {
     plan_.covered = tally_.covered();
     plan_.length = length();
+    plan_.effort = effort();
     return std::move(plan_);
   }
 
@@ -133,15 +140,27 @@ class Planner {
 
   double length() {
     double sum = 0.0;
-    for (long i = 0; at(i) != nullptr; ++i) sum += links_.price(at(i - 1), at(i)) + plan_.works[at(i)->work].length();
+    for (long i = 0; at(i) != nullptr; ++i) sum += links_.length(at(i - 1), at(i)) + plan_.works[at(i)->work].length();
     return sum;
   }
 
-  /// Whether so many metres [m] are worth so much area [m^2]; both negative if it is to be left out.
-  bool pays(double more_length, double more_area) {
-    if (!is_settled_) return plan_.price * more_area > more_length;
-    const double now = length(), covered = tally_.covered();
-    return costOf(field_, now + more_length, covered + more_area, goal_) < costOf(field_, now, covered, goal_);
+  double effort() {
+    double sum = 0.0;
+    for (long i = 0; at(i) != nullptr; ++i) sum += links_.price(at(i - 1), at(i)) + effortOf(*at(i));
+    return sum;
+  }
+
+  double effortOf(const Step& step) const {
+    const Curve way = wayOf(step);
+    return way.length() + field_.gearPrice() * way.gearChanges();
+  }
+
+  /// Whether so much effort and length [m] are worth so much area [m^2]; all negative if it is to be left out.
+  bool pays(double more_effort, double more_length, double more_area) {
+    if (!is_settled_) return plan_.price * more_area > more_effort;
+    const double now = length(), so_far = effort(), covered = tally_.covered();
+    return costOf(field_, so_far + more_effort, now + more_length, covered + more_area, goal_) <
+           costOf(field_, so_far, now, covered, goal_);
   }
 
   void leaveOut() {
@@ -151,9 +170,11 @@ class Planner {
         field_.poll();
         const Step step = *at(i);
         const Curve way = wayOf(step);
-        const double saved = way.length() + links_.detour(at(i - 1), step, step, at(i + 1));
-        const bool is_wished = isBorderLap(step) && field_.params().headland_laps > 0 && saved < Links::kNoWay / 2.0;
-        if (is_wished || !pays(-saved, -tally_.only(way))) continue;
+        const double saved = effortOf(step) + links_.detour(at(i - 1), step, step, at(i + 1));
+        const double shorter = way.length() + links_.longer(at(i - 1), step, at(i + 1));
+        const bool is_wished =
+            fillers_.count(step.work) > 0 || (isBorderLap(step) && field_.params().headland_laps > 0);
+        if ((is_wished && saved < Links::kNoWay / 2.0) || !pays(-saved, -shorter, -tally_.only(way))) continue;
         tally_.remove(way);
         plan_.steps.erase(plan_.steps.begin() + i--);
         changed = true;
@@ -174,7 +195,9 @@ class Planner {
         plan_.works.push_back(work);
         const Insertion insertion = cheapestInsertion(&links_, plan_.works, plan_.works.size() - 1, plan_.steps);
         const Curve way = work.curveOf(insertion.step.way);
-        if (!pays(way.length() + insertion.price, tally_.gain(way))) continue;
+        const auto place = static_cast<long>(insertion.place);
+        const double longer = way.length() + links_.longer(at(place - 1), insertion.step, at(place));
+        if (!pays(effortOf(insertion.step) + insertion.price, longer, tally_.gain(way))) continue;
         tally_.add(way);
         insert(insertion);
         changed = true;
@@ -182,12 +205,54 @@ class Planner {
     }
   }
 
+  /// Sweeps the larger pieces that are left, whether that pays or not, largest first.
+  void fillGaps() {
+    const double least = field_.params().max_gap * field_.width() * field_.width();
+    if (least <= 0.0) return;
+    std::vector<UnsweptPart> parts = unsweptParts(tally_.grid(), least);
+    const auto larger = [](const UnsweptPart& a, const UnsweptPart& b) { return a.size() > b.size(); };
+    std::stable_sort(parts.begin(), parts.end(), larger);
+    double more = kMoreForGaps * length();
+    for (const UnsweptPart& part : parts) {
+      if (field_.timeUsed() > kTimeForGaps) break;
+      fillGap(part, &more);
+    }
+  }
+
+  /// @param more  length that may be added [m]; less afterwards.
+  void fillGap(const UnsweptPart& part, double* more) {
+    CoverageGrid grid = tally_.grid();
+    std::uint8_t* const cells = grid.data();
+    for (std::size_t i = 0; i < grid.size(); ++i) cells[i] |= kSwept;
+    for (const auto& [column, row] : part) {
+      *(cells + (grid.row(row) - grid.row(0)) + column) &= static_cast<std::uint8_t>(~kSwept);
+    }
+    const SwathPrices prices{kDear / field_.width(), kCheapTurn * field_.radius()};
+    const auto headings = rankHeadings(field_, prices, grid, swathHeadings(field_));
+    for (const Work& work : planSwaths(field_, prices, headings, &grid)) {
+      plan_.works.push_back(work);
+      const std::size_t index = plan_.works.size() - 1;
+      const Insertion insertion = cheapestInsertion(&links_, plan_.works, index, plan_.steps);
+      const auto place = static_cast<long>(insertion.place);
+      links_.settle(at(place - 1), &insertion.step);
+      links_.settle(&insertion.step, at(place));
+      const Curve way = work.curveOf(insertion.step.way);
+      const double longer = way.length() + links_.longer(at(place - 1), insertion.step, at(place));
+      if (longer > *more) continue;
+      *more -= longer;
+      tally_.add(way);
+      insert(insertion);
+      fillers_.insert(index);
+    }
+  }
+
   const Field& field_;
   Plan plan_;
   Links links_;
   Tally tally_;
-  double goal_;              ///< [m^2]
-  bool is_settled_ = false;  ///< whether the lengths of the ways between are known
+  double goal_;                    ///< [m^2]
+  std::set<std::size_t> fillers_;  ///< works that fill gaps
+  bool is_settled_ = false;        ///< whether the lengths of the ways between are known
 };
 
 }  // namespace

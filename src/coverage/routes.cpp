@@ -46,7 +46,7 @@ bool Routes::isStraightFree(const Point2d& from, const Point2d& to) const {
   const int steps = static_cast<int>(length / fine_.cell()) + 1;
   for (int i = 1; i < steps; ++i) {
     const Point2d at = from + (to - from) * (static_cast<double>(i) / steps);
-    if ((fine_.at(at) & kMarked) == 0) return false;
+    if (!isOpen(at)) return false;
   }
   return true;
 }

@@ -16,6 +16,9 @@ class Routes {
 
   double distance(const Point2d& from, const Point2d& to);
 
+  /// Whether the vehicle's centre line can be there.
+  bool isOpen(const Point2d& point) const { return (fine_.at(point) & kMarked) != 0; }
+
   /// Whether the straight line keeps to the places where the vehicle's centre line can be.
   bool isStraightFree(const Point2d& from, const Point2d& to) const;
 

@@ -36,7 +36,9 @@ CoverageParams readCoverageParams(const ParameterReader& reader) {
   reader.read("swath_heading", &heading);
   reader.read("objective", &objective);
   reader.read("target_coverage", &params.target_coverage);
+  reader.read("max_gap", &params.max_gap);
   reader.read("gear_change_cost", &params.gear_change_cost);
+  reader.read("reverse_to_turn", &params.reverse_to_turn);
   reader.read("path_spacing", &params.spacing);
   reader.read("time_budget", &params.time_budget);
   reader.readSize("max_grid_rows", 1, 10000000, &params.max_grid_rows);

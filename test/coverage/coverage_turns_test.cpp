@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "sweeper.h"
+
+namespace external_command {
+namespace {
+
+TEST(CoveragePlanner, TurnsForwardWhereTheHeadlandHasRoom) {
+  const CoverageArea area{box(0, 0, 60, 40), {}};
+  const CoverageResult result = planned(area);
+  EXPECT_LE(result.gear_changes, result.turns);
+  EXPECT_GT(result.coverage_ratio, 0.98);
+  EXPECT_TRUE(isDrivable(result.path, area));
+}
+
+TEST(CoveragePlanner, DoesNotReverseToTurnWhereThatIsNotWished) {
+  CoverageParams wished = params();
+  wished.reverse_to_turn = false;
+  const CoverageArea area{box(0, 0, 40, 30), {}};
+  const CoverageResult result = CoveragePlanner(sweeper(), wished).plan(area, kStart, {}, {});
+  EXPECT_EQ(result.gear_changes, 0u);
+  EXPECT_GT(result.coverage_ratio, 0.85);
+  EXPECT_TRUE(isDrivable(result.path, area));
+}
+
+Polygon circle(double radius) {
+  std::vector<Point2d> points;
+  for (int i = 0; i < 64; ++i) points.push_back(radius * unitVector(i * M_PI / 32.0));
+  return Polygon(points, "circle");
+}
+
+TEST(CoveragePlanner, SweepsAThinRingInLaps) {
+  const CoverageArea area{circle(40.0), {circle(33.0)}};
+  const CoverageResult result = CoveragePlanner(sweeper(), params()).plan(area, Pose2d{36.5, 0.0, 1.5708}, {}, {});
+  EXPECT_GT(result.coverage_ratio, 0.97);
+  EXPECT_LT(result.length, 1.3 * result.reachable_area / params().swath_width);
+  EXPECT_LE(result.gear_changes, 10u);
+  EXPECT_TRUE(isDrivable(result.path, area));
+}
+
+TEST(CoveragePlanner, SweepsLargerGapsForAFewMetresMore) {
+  const CoverageArea area{box(0, 0, 40, 30), {box(18, 12, 22, 16), box(30, 20, 31, 21)}};
+  CoverageParams lavish = params(), careful = params();
+  lavish.target_coverage = careful.target_coverage = 0.9;
+  lavish.max_gap = 0.0;
+  careful.max_gap = 0.5;
+  const CoverageResult gaps = CoveragePlanner(sweeper(), lavish).plan(area, kStart, {}, {});
+  const CoverageResult none = CoveragePlanner(sweeper(), careful).plan(area, kStart, {}, {});
+  EXPECT_GE(none.coverage_ratio, gaps.coverage_ratio);
+  EXPECT_LT(none.length, 1.03 * gaps.length);
+  EXPECT_TRUE(isDrivable(none.path, area));
+}
+
+}  // namespace
+}  // namespace external_command
