@@ -11,8 +11,8 @@
 #include <random>
 #include <thread>
 
+#include "../../src/routing/recent_memory.h"
 #include "external_command/map/map_reader.h"
-#include "recent_memory.h"
 
 namespace external_command {
 namespace {
