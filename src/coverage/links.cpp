@@ -36,22 +36,31 @@ Links::Cost Links::costOf(const Step* from, const Step* to) {
   return entry->second;
 }
 
+/// Whatever reverses takes two changes of gear at least, so that a way forward need not be compared with all ways.
 Links::Cost Links::guess(const Pose2d& from, const Pose2d& to) {
+  const auto costOf = [](double price, double length) {
+    return Cost{static_cast<float>(price), static_cast<float>(length)};
+  };
   const double straight = (to.position() - from.position()).norm();
   const double detour = routes_.distance(from.position(), to.position()) - straight;
-  const std::vector<SteeringCurve> turns = turnsWithoutObstacles(from, to, field_.radius(), field_.gearPrice());
-  const SteeringCurve* turn = &turns.front();
-  double more = detour;
-  if (detour < kDifference && straight < kNear * field_.radius()) {
-    const std::size_t most = std::min(kTurnsTried, turns.size());
-    std::size_t i = 0;
-    while (i < most && !hasRoom(from, turns[i])) ++i;
-    turn = &turns[i < most ? i : 0];
-    more = i < most
-               ? 0.0
-               : field_.radius() * std::min(kLoop, 1.0 + kChangesWithoutRoom * field_.gearPrice() / field_.radius());
+  const double shortest = reedsSheppLength(from, to, field_.radius());
+  const double reversing = shortest + 2.0 * field_.gearPrice();
+  const std::vector<SteeringCurve> forward = dubinsCurves(from, to, field_.radius());
+  if (detour >= kDifference || straight >= kNear * field_.radius()) {
+    const double ahead = forward.front().length;
+    return ahead <= reversing ? costOf(ahead + detour, ahead + detour) : costOf(reversing + detour, shortest + detour);
   }
-  return {static_cast<float>(turn->cost + more), static_cast<float>(turn->length + more)};
+  for (const SteeringCurve& turn : forward) {
+    if (turn.length > reversing) break;
+    if (hasRoom(from, turn)) return costOf(turn.length, turn.length);
+  }
+  const std::vector<SteeringCurve> turns = turnsWithoutObstacles(from, to, field_.radius(), field_.gearPrice());
+  for (std::size_t i = 0; i < std::min(kTurnsTried, turns.size()); ++i) {
+    if (hasRoom(from, turns[i])) return costOf(turns[i].cost, turns[i].length);
+  }
+  const double more =
+      field_.radius() * std::min(kLoop, 1.0 + kChangesWithoutRoom * field_.gearPrice() / field_.radius());
+  return costOf(turns.front().cost + more, turns.front().length + more);
 }
 
 /// Looks at points along the middle of the vehicle.
