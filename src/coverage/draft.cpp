@@ -16,7 +16,8 @@ constexpr double kFewerTurns = 5.0;  ///< how much dearer a turn is where few ar
 constexpr std::size_t kHeadingsKept = 4;
 constexpr double kCorridor = 10.0;  ///< swaths across an area that is so narrow in the mean that laps alone are tried
 constexpr int kMostLaps = 50;       ///< of these
-constexpr double kLapsInAll = 4e4;  ///< how many laps are tried: fewer on large fields, where each takes longer
+constexpr double kTimeForLaps = 0.15;  ///< share of the budget after which no more laps than the nose needs are tried
+constexpr double kLapsInAll = 4e4;     ///< how many laps are tried: fewer on large fields, where each takes longer
 
 /// Of a turn on a headland of so many laps: it takes changes of gear where there is no room for half a circle.
 double turnPrice(const Field& field, int laps) {
@@ -62,7 +63,7 @@ std::vector<Draft> makeDrafts(const Field& field, const CoverageGrid& empty, dou
         if (headings.size() < kHeadingsKept) headings.push_back(ranked.heading);
       }
     }
-    if (draft.laps == most) break;
+    if (draft.laps == most || (draft.laps > nose && field.timeUsed() > kTimeForLaps)) break;
     const std::vector<Work> laps = planLap(field, draft.laps, {wanted >= 0 ? wanted : nose}, price, &draft.grid);
     if (laps.empty()) break;
     for (const Work& lap : laps) {
