@@ -7,15 +7,20 @@
 
 namespace external_command {
 
-DrivingTime::DrivingTime(const VehicleParams& vehicle, std::shared_ptr<const Path> path)
+DrivingTime::DrivingTime(const VehicleParams& vehicle, std::shared_ptr<const Path> path, const SpeedOrder& order)
     : acceleration_(vehicle.max_acceleration),
       deceleration_(vehicle.max_deceleration),
       path_(std::move(path)),
+      order_(order),
       to_end_(path_->size(), 0.0) {
   const Path& points = *path_;
   for (std::size_t i = points.size() - 1; i-- > 0;) {
-    to_end_[i] = to_end_[i + 1] + stretch(points[i].speed, points[i + 1].speed, points[i + 1].s - points[i].s);
+    to_end_[i] = to_end_[i + 1] + stretch(limitAt(i), limitAt(i + 1), points[i + 1].s - points[i].s);
   }
+}
+
+double DrivingTime::limitAt(std::size_t point) const {
+  return std::min((*path_)[point].speed, order_.most) * order_.factor;
 }
 
 /// The speed changes evenly. A stretch between two stops is speeding up and braking.
@@ -34,9 +39,10 @@ double DrivingTime::left(double s, double speed) const {
   for (auto i = static_cast<std::size_t>(next - points.begin()); i < points.size(); ++i) {
     const double length = points[i].s - s;
     const double reachable = std::sqrt(speed * speed + 2.0 * acceleration_ * length);
-    const double speed_there = std::min(points[i].speed, reachable);
+    const double limit = limitAt(i);
+    const double speed_there = std::min(limit, reachable);
     time += stretch(speed, speed_there, length);
-    if (speed_there >= points[i].speed) return time + to_end_[i];  // as fast as the path allows from here on
+    if (speed_there >= limit) return time + to_end_[i];  // as fast as the path allows from here on
     s = points[i].s;
     speed = speed_there;
   }

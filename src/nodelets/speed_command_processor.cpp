@@ -49,6 +49,7 @@ CommandStatus SpeedCommandProcessor::execute(const SpeedCommand& command, const 
                    " m/s (~vehicle/max_speed) and was lowered to that");
   }
   for (const ros::Publisher& publisher : publishers_) publisher.publish(sent);
+  context().motionWatch().noteSpeed(sent);
   return makeStatus(command.command_id, CommandStatus::FINISHED, ErrorCode::kOk, message);
 }
 

@@ -68,10 +68,28 @@ void MotionWatch::follow(const Pose2d& pose, double now) {
   }
   if (motion != followed_) {
     progress_.emplace(motion->path);
-    time_.emplace(vehicle_, motion->path);
+    time_.emplace(vehicle_, motion->path, orderFor(*motion));
   }
   followed_ = std::move(motion);
   progress_->update(pose, now);
+}
+
+SpeedOrder MotionWatch::orderFor(const SentMotion& motion) const {
+  return motion.command.serial == ordered_ ? order_ : SpeedOrder();
+}
+
+void MotionWatch::noteSpeed(const SpeedCommand& command) {
+  const auto motion = gate_.motion();
+  if (!motion) return;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  order_ = orderFor(*motion);
+  ordered_ = motion->command.serial;
+  if (command.kind == SpeedCommand::TARGET_SPEED) order_.most = command.target_speed;
+  if (command.kind == SpeedCommand::RESTORE_TARGET_SPEED) order_ = SpeedOrder();
+  if (command.kind == SpeedCommand::TARGET_SPEED_FACTOR && command.target_speed_factor > 0.0) {
+    order_.factor = command.target_speed_factor;
+  }
+  if (followed_ == motion) time_.emplace(vehicle_, motion->path, order_);
 }
 
 void MotionWatch::tellProgress() {

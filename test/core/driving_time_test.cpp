@@ -49,6 +49,18 @@ TEST(DrivingTime, SpeedsUpDrivesAndBrakes) {
   EXPECT_NEAR(time.left(200.0, 0.0), 0.0, 0.01);
 }
 
+TEST(DrivingTime, TakesLongerWhereAnOrderIsSlower) {
+  // To 5 m/s in 12.5 m and 5 s, from there to a stop in 6.25 m and 2.5 s, 181.25 m between in 36.25 s.
+  EXPECT_NEAR(DrivingTime(vehicle(), legs({200.0}), {5.0, 1.0}).left(0.0, 0.0), 43.75, 0.3);
+  const double half = DrivingTime(vehicle(), legs({200.0}), {1000.0, 0.5}).left(100.0, 5.0);
+  EXPECT_NEAR(half, 2.0 * DrivingTime(vehicle(), legs({200.0})).left(100.0, 10.0), 0.3);
+}
+
+TEST(DrivingTime, IsTheSameWhereAnOrderIsFasterThanThePath) {
+  EXPECT_DOUBLE_EQ(DrivingTime(vehicle(), legs({200.0}), {50.0, 1.0}).left(0.0, 0.0),
+                   DrivingTime(vehicle(), legs({200.0})).left(0.0, 0.0));
+}
+
 TEST(DrivingTime, TakesLongerFromStanding) {
   const DrivingTime time(vehicle(), legs({200.0}));
   EXPECT_NEAR(time.left(100.0, 0.0), 10.0 + 2.5 + 5.0, 0.1);

@@ -7,8 +7,8 @@ import rospy
 import rostest
 
 import support
-from external_command.msg import ActionCommand, CommandStatus, PathFollowCommand
-from external_command.srv import Action, GetCurrentCommand, LaneFollow, PathFollow
+from external_command.msg import ActionCommand, CommandStatus, PathFollowCommand, SpeedCommand
+from external_command.srv import Action, GetCurrentCommand, LaneFollow, PathFollow, Speed
 from geometry_msgs.msg import Point
 from localization import Localization
 from vehicle import Vehicle
@@ -93,6 +93,7 @@ class ProgressTest(unittest.TestCase):
             self.silent.x = begin + metres
             support.wait_until(lambda: abs(self.silent_status(command_id).distance_left - LENGTH + metres) < 0.1,
                                "%d m are driven" % metres)
+        self.assert_knows_the_speed(command_id)
         half = self.silent_status(command_id)
         self.assertAlmostEqual(half.share_done, 0.5, delta=0.01)
 
@@ -111,6 +112,24 @@ class ProgressTest(unittest.TestCase):
         self.assert_is_progress(progress.messages, command_id)
         self.silent.stop()
         progress.close()
+
+    def assert_knows_the_speed(self, command_id):
+        """Half-way: slower takes longer, until the speed is restored; to halt is nothing to count with."""
+        before = self.silent_status(command_id).time_left
+        for fields, least in ((dict(kind=SpeedCommand.TARGET_SPEED, target_speed=0.5), LENGTH),
+                              (dict(kind=SpeedCommand.TARGET_SPEED_FACTOR, target_speed_factor=0.5), 2.0 * LENGTH),
+                              (dict(kind=SpeedCommand.TARGET_SPEED_FACTOR, target_speed_factor=0.0), 2.0 * LENGTH)):
+            self.change_speed(**fields)
+            support.wait_until(lambda: self.silent_status(command_id).time_left > 0.9 * least, "the time is longer")
+        self.change_speed(kind=SpeedCommand.RESTORE_TARGET_SPEED)
+        support.wait_until(lambda: self.silent_status(command_id).time_left < before + 5.0, "the time is as before")
+
+    @staticmethod
+    def change_speed(**fields):
+        command = SpeedCommand(**fields)
+        command.header.stamp = rospy.Time.now()
+        status = support.service(SILENT + "speed", Speed)(command).status
+        assert status.status == CommandStatus.FINISHED, support.describe(status)
 
     def test_is_none_of_what_drives_nothing(self):
         follow = ActionCommand(command=ActionCommand.FOLLOW)

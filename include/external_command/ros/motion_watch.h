@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "external_command/SpeedCommand.h"
 #include "external_command/core/arrival.h"
 #include "external_command/core/driving_time.h"
 #include "external_command/core/path_progress.h"
@@ -61,6 +62,9 @@ class MotionWatch {
   /// Looks at the vehicle; to be called some times per second.
   void look();
 
+  /// The motion under way is to be driven so from now on, as long as it is. Orders to halt are not estimated with.
+  void noteSpeed(const SpeedCommand& command);
+
   /// @param horizon  the time that planning takes [s]; 0: the plan begins where the vehicle is.
   PlanStart startFor(double horizon) const;
 
@@ -69,6 +73,7 @@ class MotionWatch {
 
  private:
   void follow(const Pose2d& pose, double now);
+  SpeedOrder orderFor(const SentMotion& motion) const;
   void tellProgress();
   void endWhereArrived(const Pose2d& pose, double now);
 
@@ -83,6 +88,8 @@ class MotionWatch {
   std::shared_ptr<const SentMotion> followed_;
   std::optional<PathProgress> progress_;  ///< along the path of the followed
   std::optional<DrivingTime> time_;       ///< on that path
+  CommandSerial ordered_ = 0;             ///< the motion that `order_` is for
+  SpeedOrder order_;
 };
 
 }  // namespace external_command
