@@ -13,6 +13,7 @@ namespace external_command {
 namespace {
 
 constexpr double kMoving = 0.2;      // a slower vehicle stands [m/s]
+constexpr double kStood = 0.3;       // at one place, after which it stands, whatever its average speed still is [s]
 constexpr double kOnPath = 1.0;      // of the vehicle to the path that it is said to drive, at most [m]
 constexpr double kReserve = 1.0;     // beyond the way that stopping takes [m]
 constexpr double kUnfollowed = 1.0;  // of the path's end, that need not be driven to have arrived [m]
@@ -121,7 +122,8 @@ PlanStart MotionWatch::startFor(double horizon) const {
   }
   const std::lock_guard<std::mutex> lock(mutex_);
   const double speed = motion_.speed();
-  if (horizon <= 0.0 || speed < kMoving || !followed_ || followed_ != gate_.motion()) return PlanStart(pose);
+  const bool stands = speed < kMoving || motion_.rest(steadyNow()) >= kStood;
+  if (horizon <= 0.0 || stands || !followed_ || followed_ != gate_.motion()) return PlanStart(pose);
   const Path& path = *followed_->path;
   PathProgress progress = *progress_;
   progress.update(pose, steadyNow());
