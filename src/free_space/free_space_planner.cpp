@@ -206,11 +206,12 @@ class Planning {
   std::string whyHopeless() const {
     const Query& query = approaches_[0].query;
     const Point2d start = query.start.position(), goal = query.goal.position();
+    const auto stop = [this] { return stop_.isReached(); };
     // the search alone is for callers that only want to know whether there is a way
-    if (params_.planner != "portfolio" || !isTooNarrow(index_, areaOf(query), start, goal)) {
+    if (params_.planner != "portfolio" || !isTooNarrow(index_, areaOf(query), start, goal, stop)) {
       return "there is none, searched in steps of a centimetre or two";
     }
-    const auto passage = narrowestPassage(index_, areaOf(query), start, goal, [this] { return stop_.isReached(); });
+    const auto passage = narrowestPassage(index_, areaOf(query), start, goal, stop);
     if (!passage) return "obstacles close every way, or leave less room than the vehicle needs";
     return text("the widest way is only ", metres(passage->width), " wide at ", at(Point2d(passage->at + origin_)),
                 "; the vehicle needs ", metres(2.0 * index_.axleDisc()), ", twice the margin included");

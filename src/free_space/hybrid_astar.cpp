@@ -50,7 +50,7 @@ std::optional<Arcs> HybridAStar::search(const std::function<bool()>& stop) {
   };
   if (runFor(std::min(kDirectSteps, max_steps_))) return search_.arcs();
   if (outcome_ != TwoWaySearch::Outcome::kOutOfSteps || max_steps_ <= kDirectSteps) return std::nullopt;
-  if (isTooNarrow(scene_.index, area_, query_.start.position(), query_.goal.position())) {
+  if (isTooNarrow(scene_.index, area_, query_.start.position(), query_.goal.position(), stop)) {
     outcome_ = TwoWaySearch::Outcome::kNone;
     return std::nullopt;
   }

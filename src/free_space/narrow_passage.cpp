@@ -15,8 +15,9 @@ namespace {
 
 constexpr double kCellSize = 0.25;  ///< [m]
 constexpr double kMaxCells = 400'000;
-constexpr double kTolerance = 2e-3;  ///< to which the widest point of a cell's side is found [m]
-constexpr double kSlack = 1e-6;      ///< of a width, for rounding [m]
+constexpr double kTolerance = 2e-3;         ///< to which the widest point of a cell's side is found [m]
+constexpr double kSlack = 1e-6;             ///< of a width, for rounding [m]
+constexpr std::size_t kCellsPerLook = 256;  ///< at the clock
 
 /// A grid of square cells. The axle gets from cell to cell through their common side, somewhere on which a disc around
 /// it must be free; within a cell nothing is asked.
@@ -37,14 +38,15 @@ class PassageGrid {
     return column < columns_ && row < rows_ ? row * columns_ + column : -1;
   }
 
-  bool connects(long from, long to) const {
+  /// True, too, once `stop` says so.
+  bool connects(long from, long to, const std::function<bool()>& stop) const {
     std::vector<bool> is_seen(static_cast<std::size_t>(columns_ * rows_));
     std::vector<long> open{from};
     is_seen[static_cast<std::size_t>(from)] = true;
-    while (!open.empty()) {
+    for (std::size_t looked = 0; !open.empty(); ++looked) {
       const long cell = open.back();
       open.pop_back();
-      if (cell == to) return true;
+      if (cell == to || (looked % kCellsPerLook == 0 && stop())) return true;
       forEachNeighbour(cell, [&](long next, const Point2d& a, const Point2d& b) {
         if (is_seen[static_cast<std::size_t>(next)] || !letsPass(a, b)) return;
         is_seen[static_cast<std::size_t>(next)] = true;
@@ -180,10 +182,11 @@ NarrowPassage measured(const FootprintIndex& index, const Point2d& place) {
 
 }  // namespace
 
-bool isTooNarrow(const FootprintIndex& index, const BoundingBox& area, const Point2d& from, const Point2d& to) {
+bool isTooNarrow(const FootprintIndex& index, const BoundingBox& area, const Point2d& from, const Point2d& to,
+                 const std::function<bool()>& stop) {
   const PassageGrid grid(index, area);
   const long first = grid.cellAt(from), last = grid.cellAt(to);
-  return first >= 0 && last >= 0 && !grid.connects(first, last);
+  return first >= 0 && last >= 0 && !grid.connects(first, last, stop);
 }
 
 std::optional<NarrowPassage> narrowestPassage(const FootprintIndex& index, const BoundingBox& area, const Point2d& from,

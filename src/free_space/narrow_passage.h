@@ -10,8 +10,9 @@ namespace external_command {
 
 /// True where no way for the rear axle leads from `from` to `to` inside `area`, since every one of them is somewhere
 /// narrower than the disc around that axle which every free footprint contains. A proof: the vehicle cannot get there.
-/// False proves nothing.
-bool isTooNarrow(const FootprintIndex& index, const BoundingBox& area, const Point2d& from, const Point2d& to);
+/// False proves nothing, and is what comes out once `stop` says so.
+bool isTooNarrow(const FootprintIndex& index, const BoundingBox& area, const Point2d& from, const Point2d& to,
+                 const std::function<bool()>& stop);
 
 /// A place between two obstacles.
 struct NarrowPassage {
