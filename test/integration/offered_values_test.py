@@ -49,6 +49,8 @@ OFFERED = {
     "zone_cover_command_processor/coverage/headland_laps": [-1, 1],
     "zone_cover_command_processor/coverage/headland_first": [True, False],
     "zone_cover_command_processor/coverage/objective": ["shortest", "fewest_turns"],
+    "zone_cover_command_processor/coverage/max_gap": [4.0, 0.0],
+    "zone_cover_command_processor/coverage/reverse_to_turn": [False, True],  # with one lap there is no room
     "zone_cover_command_processor/progress_folder": [""],
     "path_follow_command_processor/input_path_name": ["", "a_path"],
     "path_follow_command_processor/max_start_distance": [0.0, 500.0],
@@ -137,7 +139,7 @@ class OfferedValuesTest(unittest.TestCase):
             self.assertEqual(parked.path.points[-1].direction, 1 if direction == "nose_in" else -1)
 
     def assert_sweeps(self, gateway, x, y):
-        zone = [(-5.0, -8.0), (25.0, -8.0), (25.0, 8.0), (-5.0, 8.0)]
+        zone = [(-5.0, -20.0), (50.0, -20.0), (50.0, 20.0), (-5.0, 20.0)]  # with room to turn forward
         swept = self.plan(gateway, "zone_cover", ZoneCover, ZoneCoverCommand(
             drivable_roi=RoiPolygon(points=[Point(x + dx, y + dy, 0.0) for dx, dy in zone])))
         self.assertGreater(swept.report.coverage_ratio, 0.8)
