@@ -60,8 +60,7 @@ struct EasedMargin {
 /// look-up answers, near them the few edges of the cell are tested exactly. Immutable and thread-safe.
 class FootprintIndex {
  public:
-  /// @param eased_at    poses (local frame) that have to be taken. Those obstacles that one of them is nearer to than
-  /// the
+  /// @param eased_at    poses (local frame) that have to be taken. Those obstacles that one of them is nearer to than the
   ///                    margin, without meeting them, may be approached to half of that distance nearby.
   /// @param checkpoint  called now and then while the index is made: a large region takes a second.
   /// @throws InvalidRequest  the region has more edges than RegionLimits allow.

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "external_command/ZoneCoverAction.h"
-#include "external_command/core/printable.h"
 #include "external_command/core/obstacle_polygon.h"
+#include "external_command/core/printable.h"
 #include "external_command/core/text.h"
 #include "external_command/map/near_ids.h"
 #include "external_command/ros/action_front.h"
