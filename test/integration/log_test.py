@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The command log: recorded by rosbag, read back, and sent again."""
+import itertools
 import os
 import subprocess
 import tempfile
@@ -23,6 +24,7 @@ LOG = "/apollo/external_command/log"
 STATUS = "/apollo/external_command/status"
 LANE_FOLLOW = "/apollo/external_command/lane_follow"
 ACTION = "/apollo/external_command/action"
+EACH, BAD_OF = 16, 8  # requests of one caller; what three of them say at once fits the queues of 100 that a topic has
 WEST, EAST = Pose(x=100.0, y=195.0), Pose(x=300.0, y=195.0)
 
 
@@ -36,15 +38,21 @@ def connected_topics(node, to):
 class Recorder:
     """`rosbag record` of `count` messages of a topic; connected when the constructor returns."""
 
+    names = itertools.count(1)  # else one that is left from a test that failed would be taken for the next
+
     def __init__(self, path, topic, count):
-        name = "/recorder_of_" + topic.rpartition("/")[2]
+        name = "/recorder_%d" % next(self.names)
         self._process = subprocess.Popen(
             ["rosrun", "rosbag", "record", "--output-name=" + path, "--limit=%d" % count, topic, "__name:=" + name[1:]])
         support.wait_until(lambda: topic in connected_topics(NODE, name), "rosbag records " + topic)
 
     def wait(self):
         """Until all are recorded."""
-        self._process.wait(support.DEADLINE)
+        try:
+            self._process.wait(support.DEADLINE)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            raise
 
 
 def dry_run(**fields):
@@ -82,8 +90,8 @@ class LogTest(unittest.TestCase):
         sent = []
 
         def burst(first):
-            for i in range(100):
-                bad = i % 10 == 0
+            for i in range(EACH):
+                bad = i % BAD_OF == 0
                 sent.append(dry_run(command_id=first + i, target_speed=-1.0 if bad else 5.0 + i))
 
         def send():
@@ -94,8 +102,8 @@ class LogTest(unittest.TestCase):
                 thread.join()
 
         statuses = os.path.join(self._folder.name, "statuses.bag")
-        status_recorder = Recorder(statuses, STATUS, 2 * 270 + 30)  # being planned and done; or refused
-        self.record(300, send)
+        status_recorder = Recorder(statuses, STATUS, 3 * (2 * EACH - EACH // BAD_OF))  # being planned and done; or refused
+        self.record(3 * EACH, send)
         status_recorder.wait()
         entries = {entry.reply.command_id: entry for entry in read(self.bag)}
         self.assertEqual(sorted(entries), sorted(command.command_id for command, _ in sent))
