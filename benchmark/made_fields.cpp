@@ -6,7 +6,7 @@
 #include <random>
 
 #include "external_command/core/text.h"
-#include "external_command/free_space/collision_checker.h"
+#include "external_command/motion/collision_checker.h"
 
 namespace external_command {
 namespace benchmark {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "external_command/core/vehicle.h"
-#include "external_command/free_space/region.h"
+#include "external_command/motion/region.h"
 
 namespace external_command {
 namespace benchmark {

@@ -11,7 +11,7 @@ function(ec_add_library name)
   add_library(${name} SHARED ${ARG_SOURCES})
   target_compile_features(${name} PUBLIC cxx_std_17)
   target_compile_options(${name} PRIVATE ${EC_WARNINGS})
-  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/include)
+  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/include PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_include_directories(${name} SYSTEM PUBLIC ${EIGEN3_INCLUDE_DIRS} ${ARG_SYSTEM})
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} -Wl,--no-undefined)
   install(TARGETS ${name}

@@ -6,13 +6,13 @@
 #include <chrono>
 #include <cmath>
 
-#include "connector.h"
+#include "coverage/field/field.h"
+#include "coverage/field/grid.h"
+#include "coverage/field/uncovered.h"
+#include "coverage/order/plan.h"
+#include "coverage/path/connector.h"
 #include "external_command/core/error.h"
 #include "external_command/core/text.h"
-#include "field.h"
-#include "grid.h"
-#include "plan.h"
-#include "uncovered.h"
 
 namespace external_command {
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <string>
 
+#include "coverage/field/geometry.h"
+#include "coverage/field/grid.h"
 #include "external_command/core/error.h"
 #include "external_command/core/text.h"
-#include "geometry.h"
-#include "grid.h"
 
 namespace external_command {
 

@@ -5,7 +5,7 @@
 
 #include "external_command/core/error.h"
 #include "external_command/core/text.h"
-#include "first_path.h"
+#include "free_space/ompl/first_path.h"
 
 namespace external_command {
 

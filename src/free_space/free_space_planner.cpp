@@ -6,13 +6,13 @@
 #include <future>
 #include <optional>
 
-#include "anytime_improver.h"
-#include "collision_probe.h"
 #include "external_command/core/error.h"
 #include "external_command/core/text.h"
-#include "first_path.h"
+#include "free_space/improve/anytime_improver.h"
+#include "free_space/ompl/first_path.h"
+#include "free_space/search/narrow_passage.h"
 #include "last_check.h"
-#include "narrow_passage.h"
+#include "motion/collision_probe.h"
 #include "steering_ramps.h"
 
 namespace external_command {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "external_command/core/path.h"
-#include "footprint_index.h"
+#include "motion/footprint_index.h"
 
 namespace external_command {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "external_command/core/pose.h"
-#include "footprint_index.h"
-#include "steering_words.h"
+#include "motion/footprint_index.h"
+#include "motion/steering_words.h"
 
 namespace external_command {
 
@@ -42,8 +42,8 @@ Arcs merged(const Arcs& arcs);
 
 void append(const SteeringWord& word, Arcs* arcs);
 
-/// Whether the curve from `from` is free at steps in which no corner moves more than `step` [m]. Ends and middles of the
-/// arcs are looked at first: most curves that collide do so there. `from` itself is not checked.
+/// Whether the curve from `from` is free at steps in which no corner moves more than `step` [m]. Ends and middles of
+/// the arcs are looked at first: most curves that collide do so there. `from` itself is not checked.
 bool isFree(const FootprintIndex& index, const Pose2d& from, const SteeringWord& word, double step);
 
 /// Whether the curve keeps the margin everywhere; see FootprintIndex::keepsMargin.

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "external_command/core/text.h"
-#include "external_command/free_space/collision_checker.h"
+#include "external_command/motion/collision_checker.h"
 #include "external_command/ros/bounded_subscription.h"
 
 namespace external_command {
@@ -155,8 +155,8 @@ Region ManoeuvrePlanner::regionOf(Region::Parts parts) const {
 }
 
 FreeSpacePlan ManoeuvrePlanner::plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region,
-                                       const Deadline& deadline, const CancelToken& cancel,
-                                       const CommandScene& scene) const {
+                                     const Deadline& deadline, const CancelToken& cancel,
+                                     const CommandScene& scene) const {
   FreeSpaceParams params = params_;
   params.time_budget = std::min(params_.time_budget, deadline.left());
   params.improve_budget *= params.time_budget / params_.time_budget;

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "external_command/core/vehicle.h"
-#include "external_command/free_space/collision_checker.h"
 #include "external_command/map/hd_map.h"
+#include "external_command/motion/collision_checker.h"
 #include "external_command/ros/parameters.h"
 
 namespace external_command {

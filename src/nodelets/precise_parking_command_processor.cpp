@@ -5,7 +5,7 @@
 
 #include "external_command/PreciseParkingAction.h"
 #include "external_command/core/text.h"
-#include "external_command/free_space/collision_checker.h"
+#include "external_command/motion/collision_checker.h"
 #include "external_command/ros/action_front.h"
 #include "external_command/routing/area_access.h"
 
@@ -135,10 +135,9 @@ void PreciseParkingCommandProcessor::processSpecialCommand(const PreciseParkingC
   plan->path = join(plan->path, last);
   const double clearance = checker.minClearance(last);
   if (clearance < planner_->params().margin - kRounding) {
-    plan->report.warnings.push_back(text("the straight last ", metres(straight_last_), " into parking_spot_pose ",
-                                         at(spot), " comes as near as ", metres(clearance),
-                                         " to an obstacle, nearer than the margin of ",
-                                         metres(planner_->params().margin)));
+    plan->report.warnings.push_back(
+        text("the straight last ", metres(straight_last_), " into parking_spot_pose ", at(spot), " comes as near as ",
+             metres(clearance), " to an obstacle, nearer than the margin of ", metres(planner_->params().margin)));
   }
   plan->report.min_clearance = std::min(plan->report.min_clearance, clearance);
   plan->scene.goal = spot;

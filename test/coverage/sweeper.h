@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "external_command/coverage/coverage_planner.h"
-#include "external_command/free_space/collision_checker.h"
+#include "external_command/motion/collision_checker.h"
 
 namespace external_command {
 

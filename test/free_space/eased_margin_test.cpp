@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "external_command/core/error.h"
-#include "external_command/free_space/collision_checker.h"
 #include "external_command/free_space/free_space_planner.h"
+#include "external_command/motion/collision_checker.h"
 #include "support/parking_worlds.h"
 #include "support/path_matchers.h"
 #include "support/reference_clearance.h"

@@ -12,7 +12,7 @@ import xml.etree.ElementTree as ElementTree
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(__file__), "..", ".."))
 # ROS headers lie in /usr/include on Debian, so no include path keeps them out of these.
-ROS_FREE = ("core", "map", "routing", "free_space", "coverage")
+ROS_FREE = ("core", "map", "routing", "motion", "free_space", "coverage")
 ROS_INCLUDE = re.compile(
     r'#include\s*[<"](ros|rosgraph|roslib|rosconsole|nodelet|pluginlib|class_loader|tf2?|tf2_\w+|actionlib|xmlrpcpp'
     r"|\w+_msgs|external_command/ros|external_command/[A-Z]\w*\.h|XmlRpc\w*\.h)\b")

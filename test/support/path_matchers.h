@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "external_command/core/path.h"
-#include "external_command/free_space/region.h"
+#include "external_command/motion/region.h"
 
 namespace external_command {
 

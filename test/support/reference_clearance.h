@@ -2,7 +2,7 @@
 #pragma once
 
 #include "external_command/core/vehicle.h"
-#include "external_command/free_space/region.h"
+#include "external_command/motion/region.h"
 
 namespace external_command {
 

@@ -12,7 +12,7 @@
 #include "external_command/core/vehicle.h"
 #include "external_command/coverage/coverage_params.h"
 #include "external_command/coverage/coverage_progress.h"
-#include "external_command/free_space/region.h"
+#include "external_command/motion/region.h"
 
 namespace external_command {
 

@@ -7,7 +7,7 @@
 #include "external_command/core/polygon.h"
 #include "external_command/core/vehicle.h"
 #include "external_command/coverage/coverage_params.h"
-#include "external_command/free_space/reeds_shepp.h"
+#include "external_command/motion/reeds_shepp.h"
 
 namespace external_command {
 

@@ -9,7 +9,7 @@
 #include "external_command/core/path.h"
 #include "external_command/core/vehicle.h"
 #include "external_command/free_space/free_space_params.h"
-#include "external_command/free_space/region.h"
+#include "external_command/motion/region.h"
 
 namespace external_command {
 

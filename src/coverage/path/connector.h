@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "coverage/field/field.h"
+#include "curve.h"
+
+namespace external_command {
+
+/// Ways from pose to pose as if nothing were in the way, cheapest first, for a vehicle that arrives and leaves forward:
+/// the Reeds-Shepp words, and those of Dubins, which hold loops that turn forward only. Never empty.
+/// @param gear_price  of a change of gear, as length [m].
+std::vector<SteeringCurve> turnsWithoutObstacles(const Pose2d& from, const Pose2d& to, double radius,
+                                                 double gear_price);
+
+/// Finds turns and transfers: ways for the vehicle from pose to pose within the area.
+class Connector {
+ public:
+  explicit Connector(const Field& field) : field_(field) {}
+
+  /// A short way from `from` to the start of `next`; nullopt if none was found. Where there is no turn, part of
+  /// `driven` is backed along first, the way that led to `from`, or part of `next` last: out of a dead end, or into
+  /// one.
+  /// @param driven  nullptr: what led there is not known.
+  std::optional<Curve> connect(const Curve* driven, const Pose2d& from, const Curve& next) const;
+
+ private:
+  std::optional<Curve> turn(const Pose2d& from, const Pose2d& to) const;
+  std::optional<Curve> shortTurn(const Pose2d& from, const Pose2d& to) const;
+  std::optional<Curve> shiftedTurn(const Pose2d& from, const Pose2d& to) const;
+  std::optional<Curve> search(const Pose2d& from, const Pose2d& to) const;
+  std::optional<Curve> searchWithin(const std::optional<BoundingBox>& box, const Pose2d& from, const Pose2d& to) const;
+
+  const Field& field_;
+};
+
+}  // namespace external_command

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "swaths.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "coverage/field/profile.h"
+#include "stretches.h"
+
+namespace external_command {
+
+namespace {
+
+constexpr int kBins = 6;        ///< across a swath
+constexpr int kCoarseBins = 2;  ///< the same, in the search for a heading
+constexpr double kCoarseSpots = 20e3;
+constexpr int kHeadings = 24;          ///< tried, besides those of the border's edges
+constexpr std::size_t kPromising = 8;  ///< headings that are looked at again, with lines in between
+constexpr double kDistinct = 0.01;     ///< headings closer than this are one [rad]
+constexpr std::size_t kFinalists = 2;  ///< headings looked at closely
+
+class SwathSearch {
+ public:
+  SwathSearch(const Field& field, const SwathPrices& prices, const CoverageGrid& grid)
+      : field_(field), prices_(prices), grid_(grid), remains_(grid, field.width() / kBins) {}
+
+  std::vector<SwathHeading> rank(const std::vector<double>& headings) const {
+    const double bin = field_.width() / kCoarseBins;
+    const Remains coarse(remains_, std::max(0.6 * bin, std::sqrt(remains_.area / kCoarseSpots)));
+    std::vector<SwathHeading> ranked;
+    const auto rankBy = [&](int offsets) {
+      for (SwathHeading& entry : ranked) {
+        field_.poll();
+        const Profile profile(coarse, entry.heading, bin);
+        for (int offset = 0; offset < offsets; ++offset) {
+          entry.worth = std::max(entry.worth, worthOf(profile, kCoarseBins, offset));
+        }
+      }
+      const auto better = [](const SwathHeading& a, const SwathHeading& b) { return a.worth > b.worth; };
+      std::stable_sort(ranked.begin(), ranked.end(), better);
+    };
+    for (const double heading : headings) ranked.push_back({heading, 0.0});
+    if (ranked.size() > kPromising) {
+      rankBy(1);
+      ranked.resize(kPromising);
+    }
+    rankBy(kCoarseBins);
+    return ranked;
+  }
+
+  std::vector<Work> plan(const std::vector<SwathHeading>& headings) const {
+    Layout best;
+    for (std::size_t i = 0; i < std::min(kFinalists, headings.size()); ++i) {
+      field_.poll();
+      const Profile profile(remains_, headings[i].heading, field_.width() / kBins);
+      for (int offset = 0; offset < kBins; ++offset) {
+        const Layout layout{headings[i].heading, offset, worthOf(profile, kBins, offset)};
+        if (layout.worth > best.worth) best = layout;
+      }
+    }
+    if (best.worth <= 0.0) return {};
+    return lay(Profile(remains_, best.heading, field_.width() / kBins), best.offset);
+  }
+
+ private:
+  /// Parallel lines, `offset` bins off the first possible ones.
+  struct Layout {
+    double heading = 0.0;
+    int offset = 0;
+    double worth = 0.0;
+  };
+
+  /// Searches each line of a layout, and hands it over with its distance across.
+  template <class Visit>
+  void visitLines(const Profile& profile, int bins, int offset, const Visit& visit) const {
+    StretchSearch search(prices_.turn, profile.bin());
+    const double pitch = (field_.width() - field_.params().overlap) / profile.bin();
+    for (double first = -offset; first < profile.rows(); first += pitch) {
+      const int row = static_cast<int>(std::lround(first));
+      const double across = first * profile.bin() + field_.width() / 2.0;
+      if (prices_.unswept * profile.areaOf(row, row + bins) <= prices_.turn) continue;
+      const float *low = profile.below(row), *high = profile.below(row + bins);
+      const double worth = search.best(
+          profile.columns(), [&](int i) { return prices_.unswept * static_cast<double>(high[i] - low[i]); },
+          [&](int i) { return (grid_.at(profile.point((i + 0.5) * profile.bin(), across)) & kOpen) != 0; });
+      visit(across, worth, search);
+    }
+  }
+
+  double worthOf(const Profile& profile, int bins, int offset) const {
+    double sum = 0.0;
+    visitLines(profile, bins, offset, [&](double, double worth, const StretchSearch&) { sum += worth; });
+    return sum;
+  }
+
+  std::vector<Work> lay(const Profile& profile, int offset) const {
+    std::vector<Work> works;
+    visitLines(profile, kBins, offset, [&](double across, double, const StretchSearch& search) {
+      for (const Stretch& stretch : search.stretches()) addSwath(profile, across, stretch, &works);
+    });
+    return works;
+  }
+
+  /// The stretch driven from either end, as far as the vehicle fits.
+  void addSwath(const Profile& profile, double across, const Stretch& stretch, std::vector<Work>* works) const {
+    const double from = stretch.begin * profile.bin(), to = stretch.end * profile.bin();
+    const auto poseAtColumn = [&](double along) {
+      const Point2d at = profile.point(along, across);
+      return Pose2d{at.x(), at.y(), profile.heading()};
+    };
+    std::vector<Curve> ways;
+    for (const Pose2d& pose : {poseAtColumn(from), aboutFace(poseAtColumn(to))}) {
+      const Curve way = field_.freePart({pose, {{to - from, 0.0}}}, profile.bin());
+      if (way.length() > 0.0) ways.push_back(way);
+    }
+    if (!ways.empty()) works->emplace_back(ways);
+  }
+
+  const Field& field_;
+  SwathPrices prices_;
+  const CoverageGrid& grid_;
+  Remains remains_;
+};
+
+}  // namespace
+
+std::vector<double> swathHeadings(const Field& field) {
+  if (field.params().swath_heading) return {*field.params().swath_heading};
+  std::vector<double> all;
+  for (const shapes::Shape& shape : field.workable()) {
+    const std::vector<Point2d> points = pointsOf(shape.outer());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Point2d edge = points[(i + 1) % points.size()] - points[i];
+      if (edge.norm() > 4.0 * field.width()) all.push_back(headingOf(edge));
+    }
+  }
+  for (int i = 0; i < kHeadings; ++i) all.push_back(M_PI * i / kHeadings);
+  for (double& heading : all) heading -= M_PI * std::floor(heading / M_PI);
+  std::sort(all.begin(), all.end());
+  std::vector<double> distinct;
+  for (const double heading : all) {
+    if (distinct.empty() || heading - distinct.back() > kDistinct) distinct.push_back(heading);
+  }
+  return distinct;
+}
+
+std::vector<SwathHeading> rankHeadings(const Field& field, const SwathPrices& prices, const CoverageGrid& grid,
+                                       const std::vector<double>& headings) {
+  return SwathSearch(field, prices, grid).rank(headings);
+}
+
+std::vector<Work> planSwaths(const Field& field, const SwathPrices& prices, const std::vector<SwathHeading>& headings,
+                             CoverageGrid* grid) {
+  std::vector<Work> works = SwathSearch(field, prices, *grid).plan(headings);
+  for (const Work& work : works) grid->sweep(work.curveOf(0), field.width());
+  return works;
+}
+
+}  // namespace external_command

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "path_improver.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace external_command {
+
+namespace {
+
+constexpr double kCheckStep = 0.05;      ///< most that a corner moves between two checks of the first look [m]
+constexpr double kProgress = 1e-3;       ///< part of the cost that has to be won to go on
+constexpr double kWorthIt = 1e-4;        ///< smallest gain that counts [m]
+constexpr double kShortestPiece = 1e-3;  ///< [m]
+constexpr double kShortcuts = 0.2;       ///< part of the trials
+
+}  // namespace
+
+PathImprover::PathImprover(const Scene& scene, const Query& query, std::uint64_t seed)
+    : scene_(scene), query_(query), random_(seed) {}
+
+Arcs PathImprover::improve(const Arcs& arcs, std::size_t patience, WorkBudget* budget) {
+  if (arcs.empty()) return arcs;
+  Track track(query_, arcs, scene_.cost);
+  double milestone = track.cost();
+  for (std::size_t fruitless = 0; fruitless < patience && budget->spend(); ++fruitless) {
+    const std::optional<Arcs> better = tryOnce(track);
+    if (!better) continue;
+    if (better->empty()) return *better;
+    track = Track(query_, *better, scene_.cost);
+    if (track.cost() < milestone * (1.0 - kProgress)) fruitless = 0, milestone = track.cost();
+  }
+  return track.arcs();
+}
+
+std::optional<Arcs> PathImprover::tryOnce(const Track& track) {
+  const double middle = random_.uniform(0.0, track.length());
+  const auto reach = [&] { return track.length() * std::pow(random_.uniform(), 2.0); };
+  const Track::Place from = track.arriving(std::max(middle - reach(), 0.0));
+  const Track::Place to = track.leaving(std::min(middle + reach(), track.length()));
+  if (to.s - from.s < kShortestPiece) return std::nullopt;
+  if (random_.uniform() < kShortcuts) return tryShortcut(track, from, to);
+  const double size = std::pow(10.0, random_.uniform(-3.0, 0.0)) * scene_.radius / 3.0;
+  Pose2d via = track.leaving(middle).pose;
+  via.x += size * random_.bell();
+  via.y += size * random_.bell();
+  via.heading += size * random_.bell() / scene_.radius;
+  return tryVia(track, from, via, to);
+}
+
+std::optional<Arcs> PathImprover::tryShortcut(const Track& track, const Track::Place& from,
+                                              const Track::Place& to) const {
+  if (from.arc == to.arc) return std::nullopt;
+  WordSet words;
+  const double budget = to.cost - from.cost - kWorthIt;
+  reedsSheppWords(from.pose, to.pose, {scene_.radius, scene_.cost, {from.gear, to.gear}, budget}, &words);
+  while (words.size() > 0) {
+    const SteeringWord word = words.takeCheapest();
+    if (!isDrivable(from.pose, word)) continue;
+    Arcs middle;
+    append(word, &middle);
+    return track.spliced(from, middle, to);
+  }
+  return std::nullopt;
+}
+
+std::optional<Arcs> PathImprover::tryVia(const Track& track, const Track::Place& from, const Pose2d& via,
+                                         const Track::Place& to) const {
+  const double budget = to.cost - from.cost - kWorthIt;
+  WordSet first_words, second_words;
+  reedsSheppWords(from.pose, via, {scene_.radius, scene_.cost, {from.gear, 0}, budget}, &first_words);
+  if (first_words.size() == 0 || !scene_.index.isFree(via)) return std::nullopt;
+  while (first_words.size() > 0) {
+    const SteeringWord first = first_words.takeCheapest();
+    if (first.size == 0) continue;
+    const int gear = gearOf(first.arcs[static_cast<std::size_t>(first.size) - 1]);
+    const double left = budget - first.cost;
+    reedsSheppWords(via, to.pose, {scene_.radius, scene_.cost, {gear, to.gear}, left}, &second_words);
+    if (second_words.size() == 0 || !isDrivable(from.pose, first)) continue;
+    while (second_words.size() > 0) {
+      const SteeringWord second = second_words.takeCheapest();
+      if (!isDrivable(via, second)) continue;
+      Arcs middle;
+      append(first, &middle);
+      append(second, &middle);
+      return track.spliced(from, middle, to);
+    }
+  }
+  return std::nullopt;
+}
+
+bool PathImprover::isDrivable(const Pose2d& from, const SteeringWord& word) const {
+  return isFree(scene_.index, from, word, kCheckStep) && keepsMargin(scene_.index, from, word);
+}
+
+}  // namespace external_command

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hybrid_astar.h"
+
+#include <ompl/geometric/PathGeometric.h>
+
+#include <algorithm>
+
+#include "free_space/search/narrow_passage.h"
+#include "free_space/search/way_pose_search.h"
+#include "ompl_space.h"
+
+namespace external_command {
+
+namespace ob = ompl::base;
+
+namespace {
+
+constexpr std::size_t kDirectSteps = 4000;  ///< before way poses are tried
+constexpr double kLongWay = 8.0;            ///< from which they are, in turning radii
+
+}  // namespace
+
+HybridAStar::HybridAStar(const ob::SpaceInformationPtr& space, const Scene& scene, const Query& query,
+                         const BoundingBox& area, std::size_t max_steps)
+    : ob::Planner(space, "HybridAStar"),
+      scene_(scene),
+      query_(query),
+      area_(area),
+      max_steps_(max_steps),
+      search_(scene, query, area) {
+  specs_.approximateSolutions = false;
+  specs_.directed = true;
+}
+
+ob::PlannerStatus HybridAStar::solve(const ob::PlannerTerminationCondition& stop) {
+  checkValidity();
+  const auto arcs = search([&stop] { return stop(); });
+  if (!arcs) return ob::PlannerStatus::TIMEOUT;
+  ob::PlannerSolution solution(pathOf(si_, query_.start, *arcs));
+  solution.setPlannerName(getName());
+  pdef_->addSolutionPath(solution);
+  return ob::PlannerStatus::EXACT_SOLUTION;
+}
+
+/// A little of the search itself, which suffices nearly always; then over way poses; then the search to its end.
+std::optional<Arcs> HybridAStar::search(const std::function<bool()>& stop) {
+  const auto runFor = [&](std::size_t steps) {
+    outcome_ = search_.run({}, {steps, std::numeric_limits<double>::infinity(), stop});
+    return outcome_ == TwoWaySearch::Outcome::kFound;
+  };
+  if (runFor(std::min(kDirectSteps, max_steps_))) return search_.arcs();
+  if (outcome_ != TwoWaySearch::Outcome::kOutOfSteps || max_steps_ <= kDirectSteps) return std::nullopt;
+  if (isTooNarrow(scene_.index, area_, query_.start.position(), query_.goal.position(), stop)) {
+    outcome_ = TwoWaySearch::Outcome::kNone;
+    return std::nullopt;
+  }
+  if ((query_.goal.position() - query_.start.position()).norm() > kLongWay * scene_.radius) {
+    WayPoseSearch over_way_poses(scene_, query_, area_);
+    if (over_way_poses.run(stop)) {
+      outcome_ = TwoWaySearch::Outcome::kFound;
+      return over_way_poses.arcs();
+    }
+  }
+  return runFor(max_steps_) ? std::optional<Arcs>(search_.arcs()) : std::nullopt;
+}
+
+}  // namespace external_command

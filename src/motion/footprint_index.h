@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "external_command/core/vehicle.h"
+#include "external_command/motion/reeds_shepp.h"
+#include "obstacle_edges.h"
+
+namespace external_command {
+
+/// A pose with its heading as a unit vector, for loops that step along an arc.
+struct Frame {
+  double x, y, cos, sin;
+
+  explicit Frame(const Pose2d& pose) : x(pose.x), y(pose.y), cos(std::cos(pose.heading)), sin(std::sin(pose.heading)) {}
+
+  /// Moves by (forward, left) and turns by the angle whose cosine and sine are given.
+  void move(double forward, double left, double turn_cos, double turn_sin) {
+    x += cos * forward - sin * left;
+    y += sin * forward + cos * left;
+    const double c = cos * turn_cos - sin * turn_sin;
+    sin = sin * turn_cos + cos * turn_sin;
+    cos = c;
+  }
+};
+
+/// The vehicle's rectangle seen from its centre.
+struct FootprintBox {
+  explicit FootprintBox(const VehicleParams& vehicle)
+      : centre((vehicle.wheelbase + vehicle.front_overhang - vehicle.rear_overhang) / 2.0),
+        half_length(vehicle.length() / 2.0),
+        half_width(vehicle.width / 2.0) {}
+
+  double circumradius() const { return std::hypot(half_length, half_width); }
+
+  /// Most that any corner moves [m] for a metre driven at curvature `kappa`.
+  double cornerSpeed(double kappa) const {
+    return std::hypot(1.0 + std::abs(kappa) * half_width, kappa * (std::abs(centre) + half_length));
+  }
+
+  double centre;  ///< ahead of the rear axle [m]
+  double half_length;
+  double half_width;
+};
+
+/// Where the margin is smaller, since a pose that has to be taken is nearer to an obstacle.
+struct EasedMargin {
+  std::size_t pose = 0;   ///< index of that pose
+  double distance = 0.0;  ///< of its bare footprint from the nearest obstacle [m]
+  int source = 0;         ///< that obstacle, see ObstacleEdge
+  double margin = 0.0;    ///< to it, half of that distance [m]
+  double within = 0.0;    ///< of the footprint's centre at that pose [m]
+};
+
+/// Decides whether the footprint is free of obstacles, in the local frame. Edges lie in the cells of a coarse grid from
+/// which the footprint could reach them, and each cell knows its distance to the nearest edge: far from all edges one
+/// look-up answers, near them the few edges of the cell are tested exactly. Immutable and thread-safe.
+class FootprintIndex {
+ public:
+  /// @param eased_at    poses (local frame) that have to be taken. Those obstacles that one of them is nearer to than
+  /// the
+  ///                    margin, without meeting them, may be approached to half of that distance nearby.
+  /// @param checkpoint  called now and then while the index is made: a large region takes a second.
+  /// @throws InvalidRequest  the region has more edges than RegionLimits allow.
+  FootprintIndex(const VehicleParams& vehicle, double margin, const Region& region, const Point2d& origin,
+                 const std::vector<Pose2d>& eased_at, const Checkpoint& checkpoint);
+
+  const LocalObstacles& obstacles() const { return obstacles_; }
+  const FootprintBox& box() const { return box_; }
+  double margin() const { return margin_; }
+  const std::vector<EasedMargin>& easedMargins() const { return eased_; }
+
+  /// Negative where the footprint comes nearer than the margin to an obstacle or leaves the axle bounds. Else a lower
+  /// bound of how far every corner can move before it does [m]; often 0.
+  double freeRadius(const Frame& frame) const;
+
+  bool isFree(const Pose2d& pose) const { return freeRadius(Frame(pose)) >= 0.0; }
+
+  /// How far [m] `arc` can be driven from `from` with every checked pose free; the whole length if nothing is in the
+  /// way. Between two checks no corner moves more than `step` [m]. `from` itself is not checked.
+  double freeLength(const Pose2d& from, const ArcSegment& arc, double step) const;
+
+  /// Whether all of `arc` keeps the margin, nowhere missing more than a millimetre of it: each step is as long as the
+  /// distance to the obstacles allows. `from` itself is not checked.
+  bool keepsMargin(const Pose2d& from, const ArcSegment& arc) const;
+
+  /// How near the footprint is to what is around it.
+  struct Clearance {
+    double distance;  ///< from the bare footprint to the nearest edge or filled point [m]
+    double room;      ///< smallest difference of distance and margin; negative where a margin is broken [m]
+  };
+
+  /// Both are at most `limit`.
+  Clearance clearance(const Frame& frame, double limit) const;
+
+  /// Whether a distance between footprint and edge breaks the margin, but for rounding. Touching always does.
+  bool isTooNear(double distance, std::size_t edge) const {
+    return distance <= 0.0 || distance < marginTo(edge) - 1e-9;
+  }
+
+  /// Distance [m] from the bare footprint to `edge`; 0 where they meet.
+  double distanceTo(const ObstacleEdge& edge, const Frame& frame) const;
+
+  const BoundingBox& axleBounds() const { return axle_bounds_; }
+  bool isWithinAxleBounds(double x, double y) const;
+
+  /// False only where no free footprint has its rear-axle centre within `radius` [m] of the point.
+  bool axleMayBeWithin(double x, double y, double radius) const;
+
+  /// Radius of the disc around the rear axle's middle that every free footprint contains, with the margin [m].
+  double axleDisc() const;
+
+  /// Distance from the point to the nearest edge, at most `limit`, which must not exceed axleDisc(). Deep inside an
+  /// obstacle it is negative, at most that depth [m].
+  double axleRoom(const Point2d& point, double limit) const;
+
+  /// At most the distance from the middle of the point's cell to the nearest obstacle; 0 in one [m].
+  double roomAt(const Point2d& point) const;
+
+  /// Side of a cell [m], and the corner of the cell that holds `point`: maps made of the same cells get the sharpest
+  /// answers.
+  double cellSize() const { return cell_size_; }
+  Point2d snapped(const Point2d& point) const;
+
+  /// Box around everything that matters: edges, cut to the axle bounds. Empty (min > max) without either.
+  const BoundingBox& extent() const { return extent_; }
+
+ private:
+  static constexpr double kBeyond =
+      0.25;  ///< edges are listed this far beyond the reach, so that room can be measured [m]
+
+  static constexpr std::size_t kBlock = 16;
+
+  enum class State : std::uint8_t { kFree, kFilled };
+
+  /// An edge as middle and half, which is what the separating axes need.
+  struct HalfEdge {
+    double mx, my, hx, hy;
+  };
+
+  struct CellEdge {
+    std::uint32_t cell, edge;
+  };
+
+  double marginTo(std::size_t edge) const { return margins_.empty() ? margin_ : margins_[edge]; }
+  void easeMargin(std::size_t number, const Pose2d& pose);
+  void easeEdge(std::size_t edge, const Point2d& centre, const EasedMargin& eased);
+  void makeBlocks();
+  void setExtent();
+  void fillStates(const Checkpoint& checkpoint);
+  void fillPolygon(const Polygon& polygon, bool inside, const Checkpoint& checkpoint);
+  void spreadEdges(const Checkpoint& checkpoint);
+  void spread(std::uint32_t edge, std::vector<CellEdge>* pairs);
+  void list(const std::vector<CellEdge>& pairs, const Checkpoint& checkpoint);
+  void extendNear();
+  double listReach() const { return reach_ + cell_reach_ + kBeyond; }
+  long cellAt(double x, double y) const;
+  Point2d cellCentre(long column, long row) const;
+  bool edgesAreClear(long cell, const Frame& frame, double cx, double cy) const;
+  double exactRoom(const Frame& frame) const;
+  double exactDistance(const HalfEdge& edge, const Frame& frame, double cx, double cy) const;
+
+  LocalObstacles obstacles_;
+  FootprintBox box_;
+  double margin_;
+  double least_margin_;
+  std::vector<EasedMargin> eased_;
+  std::vector<double> margins_;  ///< to each edge [m]; empty: the same to all
+  double reach_;                 ///< edges farther from the footprint's centre cannot break the margin [m]
+  BoundingBox extent_;
+  BoundingBox axle_bounds_;
+  bool outside_is_free_;
+  double cell_size_ = 0.5;
+  double cell_reach_ = 0.0;  ///< half the diagonal of a cell [m]
+  long columns_ = 0;
+  long rows_ = 0;
+  std::vector<HalfEdge> edges_;
+  std::vector<HalfEdge> blocks_;       ///< boxes around kBlock edges each: middle and half of the diagonal
+  std::vector<State> states_;          ///< at the centre of each cell
+  std::vector<float> near_;            ///< at most the distance from each cell's centre to the nearest edge [m]
+  std::vector<std::uint32_t> starts_;  ///< of each cell's part of `listed_`
+  std::vector<std::uint32_t> listed_;  ///< edges by cell
+};
+
+}  // namespace external_command

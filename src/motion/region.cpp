@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "external_command/motion/region.h"
+
+#include <cmath>
+#include <utility>
+
+#include "external_command/core/error.h"
+#include "external_command/core/text.h"
+
+namespace external_command {
+
+namespace {
+
+constexpr std::size_t kMaxCells = 64'000'000;
+
+void validate(const OccupancyGrid& grid) {
+  if (!(grid.resolution >= 1e-3 && grid.resolution <= 100.0)) {
+    throw InvalidRequest(text("the grid's resolution is ", grid.resolution, " m; it must lie in [0.001, 100]"));
+  }
+  if (!grid.origin.isFinite()) throw InvalidRequest("the grid's origin is not finite");
+  const std::size_t wanted = static_cast<std::size_t>(grid.width) * grid.height;
+  if (wanted == 0 || wanted > kMaxCells) {
+    throw InvalidRequest(
+        text("the grid has ", grid.width, " x ", grid.height, " cells; it must have 1 to ", kMaxCells));
+  }
+  if (grid.cells.size() != wanted) {
+    throw InvalidRequest(text("the grid holds ", grid.cells.size(), " values; its size of ", grid.width, " x ",
+                              grid.height, " needs ", wanted));
+  }
+  if (grid.blocked_from < 1 || grid.blocked_from > 100) {
+    throw InvalidRequest(text("the grid's blocked_from is ", grid.blocked_from, "; it must lie in [1, 100]"));
+  }
+}
+
+void validate(const BoundingBox& box) {
+  if (box.min.allFinite() && box.max.allFinite() && (box.min.array() < box.max.array()).all()) return;
+  throw InvalidRequest(text("the axle bounds from ", at(box.min), " to ", at(box.max), " are empty or not finite"));
+}
+
+}  // namespace
+
+void RegionLimits::validate() const {
+  const auto require = [](const char* key, std::size_t value, std::size_t high) {
+    if (value >= 4 && value <= high) return;
+    throw InvalidParameter(text(key, " is ", value, "; it must lie in [4, ", high, "]"));
+  };
+  require("max_edges", max_edges, 100'000'000);
+  require("max_near_edges", max_near_edges, 1'000'000'000);
+}
+
+Region::Region(Parts parts) : parts_(std::move(parts)) {
+  if (parts_.grid) validate(*parts_.grid);
+  if (parts_.axle_bounds) validate(*parts_.axle_bounds);
+}
+
+}  // namespace external_command
