@@ -3,8 +3,7 @@
 
 #include <cmath>
 
-#include "external_command/core/error.h"
-#include "external_command/core/text.h"
+#include "external_command/core/parameter_range.h"
 
 namespace external_command {
 
@@ -14,20 +13,15 @@ constexpr double kStanding = 0.05;  // a vehicle that moved less stands; localiz
 constexpr double kWindow = 0.5;     // over which the speed is taken [s]
 constexpr double kGap = 1.0;        // after which poses tell nothing of the speed between them [s]
 
-void requireWithin(const char* key, double value, double low, double high) {
-  if (value >= low && value <= high) return;  // false for NaN
-  throw InvalidParameter(text(key, " is ", value, "; it must lie in [", low, ", ", high, "]"));
-}
-
 double distance(const Pose2d& a, const Pose2d& b) { return (a.position() - b.position()).norm(); }
 
 }  // namespace
 
 void ArrivalParams::validate() const {
-  requireWithin("along", along, 0.01, 100.0);
-  requireWithin("across", across, 0.01, 100.0);
-  requireWithin("heading", heading, 0.001, M_PI);
-  requireWithin("rest", rest, 0.0, 3600.0);
+  requireParameter("along", along, 0.01, 100.0);
+  requireParameter("across", across, 0.01, 100.0);
+  requireParameter("heading", heading, 0.001, M_PI);
+  requireParameter("rest", rest, 0.0, 3600.0);
 }
 
 void VehicleMotion::update(const Pose2d& pose, double now) {

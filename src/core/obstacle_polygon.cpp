@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "polygon_area.h"
+
 namespace external_command {
 
 namespace {
@@ -11,15 +13,6 @@ namespace {
 constexpr double kThickening = 0.01;  // around an obstacle that has no area [m]
 constexpr double kThin = 1e-3;        // [m]
 constexpr double kSmall = 0.1;        // obstacles within this may have next to no area [m]
-constexpr double kMinArea = 1e-4;     // [m^2]
-
-double areaOf(const std::vector<Point2d>& points) {
-  double twice = 0.0;
-  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-    twice += cross(points[i] - points[0], points[i + 1] - points[0]);
-  }
-  return std::abs(twice / 2.0);
-}
 
 }  // namespace
 
@@ -39,7 +32,7 @@ Polygon obstaclePolygon(const std::vector<Point2d>& points, const std::string& n
     high = high.cwiseMax(seen);
   }
   const Point2d size = high - low;
-  const bool has_area = areaOf(points) >= kMinArea || size.maxCoeff() >= kSmall;
+  const bool has_area = std::abs(signedArea(points)) >= kMinPolygonArea || size.maxCoeff() >= kSmall;
   if (size.y() >= kThin && has_area) return Polygon(points, name);
   low -= Point2d(kThickening, kThickening);
   high += Point2d(kThickening, kThickening);

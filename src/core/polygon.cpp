@@ -6,6 +6,7 @@
 
 #include "external_command/core/error.h"
 #include "external_command/core/text.h"
+#include "polygon_area.h"
 #include "simple_polygon.h"
 
 namespace external_command {
@@ -13,15 +14,6 @@ namespace external_command {
 namespace {
 
 constexpr double kMinEdge = 1e-3;  // [m]
-constexpr double kMinArea = 1e-4;  // [m^2]
-
-double signedArea(const std::vector<Point2d>& points) {
-  double twice = 0.0;  // relative to the first point: UTM coordinates would eat the digits
-  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-    twice += cross(points[i] - points[0], points[i + 1] - points[0]);
-  }
-  return twice / 2.0;
-}
 
 void requireSimple(const std::vector<Point2d>& points, const std::string& name) {
   const auto edges = meetingEdges(points);
@@ -58,7 +50,7 @@ Polygon::Polygon(const std::vector<Point2d>& points, const std::string& name) {
   if (area < 0.0) std::reverse(points_.begin(), points_.end());
   area_ = std::abs(area);
   requireSimple(points_, name);
-  if (area_ < kMinArea) throw InvalidRequest(text(name, " has no area: ", area_, " m^2 inside its vertices"));
+  if (area_ < kMinPolygonArea) throw InvalidRequest(text(name, " has no area: ", area_, " m^2 inside its vertices"));
   box_ = boxOf(points_);
 }
 

@@ -4,19 +4,11 @@
 #include <algorithm>
 
 #include "external_command/core/error.h"
+#include "external_command/core/parameter_range.h"
 #include "external_command/core/text.h"
 #include "free_space/ompl/first_path.h"
 
 namespace external_command {
-
-namespace {
-
-void requireWithin(const char* key, double value, double low, double high) {
-  if (value >= low && value <= high) return;  // false for NaN
-  throw InvalidParameter(text(key, " is ", value, "; it must lie in [", low, ", ", high, "]"));
-}
-
-}  // namespace
 
 const std::vector<std::string>& freeSpacePlanners() {
   static const std::vector<std::string> names = [] {
@@ -34,16 +26,16 @@ void FreeSpaceParams::validate() const {
     for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
     throw InvalidParameter(text("planner is \"", planner, "\"; it must be one of ", list));
   }
-  requireWithin("margin", margin, 0.0, 5.0);
-  requireWithin("time_budget", time_budget, 1e-3, 3600.0);
-  requireWithin("improve_budget", improve_budget, 0.0, 3600.0);
-  requireWithin("max_iterations", max_iterations, 1, 10'000'000);
-  requireWithin("threads", threads, 1, 64);
-  requireWithin("gear_change_cost", gear_change_cost, 0.0, 1000.0);
-  requireWithin("reverse_factor", reverse_factor, 1.0, 100.0);
-  requireWithin("spacing", spacing, 0.01, 1.0);
-  requireWithin("straight_last", straight_last, 0.0, 20.0);
-  requireWithin("manoeuvre_speed", manoeuvre_speed, 0.01, 5.0);
+  requireParameter("margin", margin, 0.0, 5.0);
+  requireParameter("time_budget", time_budget, 1e-3, 3600.0);
+  requireParameter("improve_budget", improve_budget, 0.0, 3600.0);
+  requireParameter("max_iterations", max_iterations, 1, 10'000'000);
+  requireParameter("threads", threads, 1, 64);
+  requireParameter("gear_change_cost", gear_change_cost, 0.0, 1000.0);
+  requireParameter("reverse_factor", reverse_factor, 1.0, 100.0);
+  requireParameter("spacing", spacing, 0.01, 1.0);
+  requireParameter("straight_last", straight_last, 0.0, 20.0);
+  requireParameter("manoeuvre_speed", manoeuvre_speed, 0.01, 5.0);
 }
 
 }  // namespace external_command

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <limits>
 
+#include "external_command/core/parameter_range.h"
 #include "external_command/core/printable.h"
 #include "external_command/core/text.h"
 #include "external_command/map/near_ids.h"
@@ -17,12 +18,6 @@ namespace {
 
 constexpr double kEnd = 0.001;       // [m]
 constexpr double kBesideLane = 0.1;  // [m] by which `s` may miss its lane: map files round their lengths
-
-void requireWithin(const char* key, double value, double low, double high) {
-  if (value >= low && value <= high) return;  // false for NaN
-  throw InvalidParameter(
-      text(key, " is ", value, "; it must lie in [", low, ", ", high == M_PI ? "pi" : text(high), "]"));
-}
 
 /// Leaves out lanes at whose end the point lies where it lies on a lane that follows, too.
 void dropEnds(const HdMap& map, std::vector<LaneMatch>* matches) {
@@ -60,19 +55,19 @@ void keepLane(const HdMap& map, const std::string& id, std::vector<LaneMatch>* m
 }  // namespace
 
 void LaneWayParams::validate() const {
-  requireWithin("snap_distance", snap_distance, 0.01, 1000.0);
-  requireWithin("snap_heading", snap_heading, 0.01, M_PI);
-  requireWithin("max_goal_distance", max_goal_distance, 0.01, 1e6);
-  requireWithin("lane_keeping_error", lane_keeping_error, 0.0, 100.0);
-  requireWithin("heading_error", heading_error, 0.0, M_PI);
-  requireWithin("height_error", height_error, 0.0, 1000.0);
-  requireWithin("off_lane_price", off_lane_price, 0.0, 1e6);
-  requireWithin("off_heading_price", off_heading_price, 0.0, 1e6);
-  requireWithin("off_lane_distance", off_lane_distance, 0.0, 1000.0);
-  requireWithin("off_lane_heading", off_lane_heading, 0.0, M_PI);
-  requireWithin("park_and_go_radius", park_and_go_radius, 0.01, 1000.0);
-  requireWithin("area_access_distance", area_access_distance, 0.0, 1000.0);
-  requireWithin("parking_lane_radius", parking_lane_radius, 0.01, 1000.0);
+  requireParameter("snap_distance", snap_distance, 0.01, 1000.0);
+  requireParameter("snap_heading", snap_heading, 0.01, M_PI);
+  requireParameter("max_goal_distance", max_goal_distance, 0.01, 1e6);
+  requireParameter("lane_keeping_error", lane_keeping_error, 0.0, 100.0);
+  requireParameter("heading_error", heading_error, 0.0, M_PI);
+  requireParameter("height_error", height_error, 0.0, 1000.0);
+  requireParameter("off_lane_price", off_lane_price, 0.0, 1e6);
+  requireParameter("off_heading_price", off_heading_price, 0.0, 1e6);
+  requireParameter("off_lane_distance", off_lane_distance, 0.0, 1000.0);
+  requireParameter("off_lane_heading", off_lane_heading, 0.0, M_PI);
+  requireParameter("park_and_go_radius", park_and_go_radius, 0.01, 1000.0);
+  requireParameter("area_access_distance", area_access_distance, 0.0, 1000.0);
+  requireParameter("parking_lane_radius", parking_lane_radius, 0.01, 1000.0);
 }
 
 LaneWayTool::LaneWayTool(const HdMap& map, const LaneWayParams& params) : map_(map), params_(params) {}

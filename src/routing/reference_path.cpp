@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "external_command/core/parameter_range.h"
 #include "external_command/core/text.h"
 #include "route_path.h"
 
@@ -12,17 +13,12 @@ namespace {
 
 constexpr std::size_t kMostTexts = 20;
 
-void requireWithin(const char* key, double value, double low, double high) {
-  if (value >= low && value <= high) return;  // false for NaN
-  throw InvalidParameter(text(key, " is ", value, "; it must lie in [", low, ", ", high, "]"));
-}
-
 }  // namespace
 
 void ReferencePathParams::validate() const {
-  requireWithin("spacing", spacing, 0.05, 5.0);
-  requireWithin("lane_change_length", lane_change_length, 1.0, 500.0);
-  requireWithin("default_speed_limit", default_speed_limit, 0.1, 100.0);
+  requireParameter("spacing", spacing, 0.05, 5.0);
+  requireParameter("lane_change_length", lane_change_length, 1.0, 500.0);
+  requireParameter("default_speed_limit", default_speed_limit, 0.1, 100.0);
 }
 
 ReferencePath referencePath(const HdMap& map, const Route& route, const VehicleParams& vehicle,

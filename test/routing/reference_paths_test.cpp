@@ -93,6 +93,17 @@ TEST_P(PathsOverAMap, AreTheSameFromMemory) {
   EXPECT_GT(paths.kept(), 0u);
 }
 
+TEST_P(PathsOverAMap, ShareTheMemoryOfWhoHasMapVehicleAndParametersInCommon) {
+  const auto paths = ReferencePaths::acquire(map_, vehicle_, params_);
+  EXPECT_EQ(ReferencePaths::acquire(map_, vehicle_, params_), paths);
+  VehicleParams wider = vehicle_;
+  wider.width += 0.1;
+  EXPECT_NE(ReferencePaths::acquire(map_, wider, params_), paths);
+  ReferencePathParams finer = params_;
+  finer.spacing /= 2.0;
+  EXPECT_NE(ReferencePaths::acquire(map_, vehicle_, finer), paths);
+}
+
 TEST_P(PathsOverAMap, AreTheSameFromMemoryWhereTheyBeginAtAVehicle) {
   const ReferencePaths paths(map_, vehicle_, params_);
   for (std::size_t i = 0; i < routes_.size(); ++i) {

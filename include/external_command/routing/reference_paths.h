@@ -16,6 +16,10 @@ struct SectionMemory;
 /// goes first. Thread-safe; no lock is held while anything is computed.
 class ReferencePaths {
  public:
+  /// One for all of this process that have map, vehicle and parameters in common. Lives as long as one of them.
+  static std::shared_ptr<const ReferencePaths> acquire(const std::shared_ptr<const HdMap>& map,
+                                                       const VehicleParams& vehicle, const ReferencePathParams& params);
+
   ReferencePaths(std::shared_ptr<const HdMap> map, const VehicleParams& vehicle, const ReferencePathParams& params);
   ~ReferencePaths();
 
@@ -27,6 +31,8 @@ class ReferencePaths {
   std::size_t kept() const;
 
  private:
+  bool areFor(const HdMap& map, const VehicleParams& vehicle, const ReferencePathParams& params) const;
+
   const std::shared_ptr<const HdMap> map_;
   const VehicleParams vehicle_;
   const ReferencePathParams params_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "free_space/search/search_box.h"
 #include "track.h"
 
 namespace external_command {
@@ -55,16 +56,10 @@ Arcs AnytimeImprover::windowSearched(const Arcs& arcs, WorkBudget* budget) {
   const double length = std::min(random_.uniform(0.5, 1.5) * kWindow * scene_.radius, track.length());
   const double begin = random_.uniform(0.0, track.length() - length);
   const Track::Place from = track.arriving(begin), to = track.leaving(begin + length);
-  BoundingBox box{from.pose.position().cwiseMin(to.pose.position()), from.pose.position().cwiseMax(to.pose.position())};
-  for (double s = begin; s < begin + length; s += scene_.radius) {
-    const Point2d at = track.leaving(s).pose.position();
-    box.min = box.min.cwiseMin(at);
-    box.max = box.max.cwiseMax(at);
-  }
-  const Point2d around = Point2d::Constant(kAround * scene_.radius);
-  box.min = (box.min - around).cwiseMax(area_.min);
-  box.max = (box.max + around).cwiseMin(area_.max);
-  TwoWaySearch search(scene_, {from.pose, to.pose, to.gear, from.gear}, box);
+  std::vector<Point2d> points{from.pose.position(), to.pose.position()};
+  for (double s = begin; s < begin + length; s += scene_.radius) points.push_back(track.leaving(s).pose.position());
+  TwoWaySearch search(scene_, {from.pose, to.pose, to.gear, from.gear},
+                      searchBox(points, kAround * scene_.radius, area_));
   const TwoWaySearch::Variant variant{0, random_.uniform(1.0, 1.6), random_.uniform(0.7, 1.3), random_.uniform()};
   const TwoWaySearch::Limits limits{kWindowSteps, to.cost - from.cost, [&] { return !budget->spend(); }};
   if (search.run(variant, limits) != TwoWaySearch::Outcome::kFound) return arcs;

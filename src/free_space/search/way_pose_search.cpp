@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "search_box.h"
+
 namespace external_command {
 
 namespace {
@@ -122,14 +124,9 @@ bool WayPoseSearch::follow(const std::vector<GuidePoint>& line, const std::vecto
 
 bool WayPoseSearch::searchLeg(const Pose2d& from, const Pose2d& to, bool is_last, const std::vector<GuidePoint>& line,
                               std::size_t first, std::size_t last, Arcs* arcs) const {
-  BoundingBox box{from.position().cwiseMin(to.position()), from.position().cwiseMax(to.position())};
-  for (std::size_t i = first; i <= last; ++i) {
-    box.min = box.min.cwiseMin(line[i].at);
-    box.max = box.max.cwiseMax(line[i].at);
-  }
-  const Point2d around = Point2d::Constant(kRoomAround * scene_.radius);
-  box.min = (box.min - around).cwiseMax(area_.min);
-  box.max = (box.max + around).cwiseMin(area_.max);
+  std::vector<Point2d> points{from.position(), to.position()};
+  for (std::size_t i = first; i <= last; ++i) points.push_back(line[i].at);
+  const BoundingBox box = searchBox(points, kRoomAround * scene_.radius, area_);
   TwoWaySearch search(scene_, {from, to, is_last ? query_.gear_after : 0}, box);
   const double infinity = std::numeric_limits<double>::infinity();
   if (search.run({}, {kLegSteps, infinity, stop_}) != TwoWaySearch::Outcome::kFound) return false;

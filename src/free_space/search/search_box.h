@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "external_command/core/polygon.h"
+
+namespace external_command {
+
+/// Where a part of a way is searched anew: the smallest box around `points`, not empty, larger by `room` [m] to each
+/// side, within `area`.
+BoundingBox searchBox(const std::vector<Point2d>& points, double room, const BoundingBox& area);
+
+}  // namespace external_command
