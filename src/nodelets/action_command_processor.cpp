@@ -43,7 +43,7 @@ ActionCommandProcessor::ActionCommandProcessor() : ServiceCommandProcessor<Actio
 ActionCommandProcessor::~ActionCommandProcessor() {
   stopServing();
   sent_motions_.disconnect();
-  watch_lane_.stop();
+  watch_executor_.stop();
 }
 
 void ActionCommandProcessor::start() {
@@ -87,7 +87,7 @@ void ActionCommandProcessor::subscribe() {
   });
 
   ros::NodeHandle nh(getNodeHandle());
-  nh.setCallbackQueue(watch_lane_.queue());
+  nh.setCallbackQueue(watch_executor_.queue());
   const auto on_chassis = [this](const ros::MessageEvent<Chassis const>& event) {
     onChassis(*event.getConstMessage());
   };

@@ -20,8 +20,8 @@ namespace external_command {
 
 /// Single actions: stop, pull over, start, change lane, switch the driving mode ...
 ///
-/// An action is sent at once, on the processor's lane, where nothing is ever waited for; what shows its end is watched
-/// on a second lane.
+/// An action is sent at once, on the processor's executor, where nothing is ever waited for; what shows its end is
+/// watched on a second executor.
 class ActionCommandProcessor : public ServiceCommandProcessor<Action> {
  public:
   ActionCommandProcessor();
@@ -37,7 +37,7 @@ class ActionCommandProcessor : public ServiceCommandProcessor<Action> {
   void readParameters();
   void subscribe();
 
-  Threads threads() const override { return {1, LanePriority::kUrgent}; }
+  Threads threads() const override { return {1, ExecutorPriority::kUrgent}; }
   bool actsAlways(const ActionCommand& command) const override;
   void check(const ActionCommand& command) const override;
   CommandStatus execute(const ActionCommand& command, const AdmittedCommand& admitted, Response* response) override;
@@ -67,7 +67,8 @@ class ActionCommandProcessor : public ServiceCommandProcessor<Action> {
   bool mode_is_settled_ = true;  ///< no mode is asked for that the chassis may still go into
   std::optional<HeardChassis> chassis_;
 
-  DedicatedLane watch_lane_{LaneOptions{"the lane of the chassis"}};  // before its users: they leave its queue first
+  Executor watch_executor_{
+      ExecutorOptions{"the executor of the chassis"}};  // before its users: they leave its queue first
   std::vector<ros::Subscriber> subscribers_;
   ros::SteadyTimer timer_;
   boost::signals2::connection sent_motions_;

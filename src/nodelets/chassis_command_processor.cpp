@@ -53,7 +53,7 @@ ChassisCommandProcessor::ChassisCommandProcessor()
 
 ChassisCommandProcessor::~ChassisCommandProcessor() {
   stopServing();
-  watch_lane_.stop();
+  watch_executor_.stop();
 }
 
 void ChassisCommandProcessor::start() {
@@ -78,7 +78,7 @@ void ChassisCommandProcessor::subscribe(double timeout) {
     return chassis_->words();
   });
   ros::NodeHandle nh(getNodeHandle());
-  nh.setCallbackQueue(watch_lane_.queue());
+  nh.setCallbackQueue(watch_executor_.queue());
   const auto on_chassis = [this](const ros::MessageEvent<Chassis const>& event) {
     const std::lock_guard<std::mutex> lock(mutex_);
     chassis_->take(*event.getConstMessage());

@@ -35,8 +35,8 @@ class ChassisCommandProcessor : public ServiceCommandProcessor<ChassisControl> {
   std::optional<PendingSignals> pending_;  ///< these guarded by the mutex
   std::optional<HeardChassis> chassis_;
 
-  DedicatedLane watch_lane_{
-      LaneOptions{"the lane of the chassis' signals"}};  // before its users: they leave its queue first
+  Executor watch_executor_{
+      ExecutorOptions{"the executor of the chassis' signals"}};  // before its users: they leave its queue first
   ros::Subscriber chassis_subscriber_;
   ros::SteadyTimer timer_;
 };

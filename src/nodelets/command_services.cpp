@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "external_command/core/text.h"
-#include "external_command/ros/log_lane.h"
+#include "external_command/ros/log_writer.h"
 #include "external_command/ros/status.h"
 #include "serve.h"
 
@@ -26,10 +26,10 @@ CommandServices::CommandServices(const ros::NodeHandle& nh, const ParameterReade
                                  std::shared_ptr<ProcessContext> context)
     : nh_(nh), parameters_(parameters), context_(std::move(context)) {
   serve<GetCommandStatus>(
-      "command_status_service_name", "external_command/command_status", &status_lane_,
+      "command_status_service_name", "external_command/command_status", &status_executor_,
       {[this](const auto& request, const MessageSize&, const ros::M_string&) { return status(request); },
        [](const ros::M_string&) { return refusal<GetCommandStatus::Response>(); }});
-  serve<GetCurrentCommand>("current_command_service_name", "external_command/current_command", &status_lane_,
+  serve<GetCurrentCommand>("current_command_service_name", "external_command/current_command", &status_executor_,
                            {[this](const auto&, const MessageSize&, const ros::M_string&) { return current(); },
                             [](const ros::M_string&) {
                               GetCurrentCommand::Response response;
@@ -37,7 +37,7 @@ CommandServices::CommandServices(const ros::NodeHandle& nh, const ParameterReade
                               return response;
                             }});
   serve<CancelCommand>(
-      "cancel_command_service_name", "external_command/cancel_command", &cancel_lane_,
+      "cancel_command_service_name", "external_command/cancel_command", &cancel_executor_,
       {[this](const auto& request, const MessageSize&, const ros::M_string& header) { return cancel(request, header); },
        [](const ros::M_string&) { return refusal<CancelCommand::Response>(); }});
 }
@@ -47,10 +47,10 @@ CommandServices::~CommandServices() {
 }
 
 template <class Service>
-void CommandServices::serve(const std::string& key, std::string name, DedicatedLane* lane,
+void CommandServices::serve(const std::string& key, std::string name, Executor* executor,
                             BoundedServiceCallbacks<Service> callbacks) {
   parameters_.readName(key, &name);
-  servers_.push_back(serveOn<Service>(lane, nh_, name, std::move(callbacks), context_->params().requests));
+  servers_.push_back(serveOn<Service>(executor, nh_, name, std::move(callbacks), context_->params().requests));
 }
 
 GetCommandStatus::Response CommandServices::status(const GetCommandStatus::Request& request) const {

@@ -27,7 +27,7 @@ class CommandServices {
  private:
   /// @param name  default of the parameter `key`.
   template <class Service>
-  void serve(const std::string& key, std::string name, DedicatedLane* lane, BoundedServiceCallbacks<Service> callbacks);
+  void serve(const std::string& key, std::string name, Executor* executor, BoundedServiceCallbacks<Service> callbacks);
 
   GetCommandStatus::Response status(const GetCommandStatus::Request& request) const;
   GetCurrentCommand::Response current() const;
@@ -37,8 +37,8 @@ class CommandServices {
   const ParameterReader parameters_;
   const std::shared_ptr<ProcessContext> context_;
   std::vector<ros::ServiceServer> servers_;
-  DedicatedLane status_lane_{LaneOptions{"the lane of statuses"}};  // last: they join before the rest goes
-  DedicatedLane cancel_lane_{LaneOptions{"the lane of cancellations", 1, LanePriority::kUrgent}};
+  Executor status_executor_{ExecutorOptions{"the executor of statuses"}};  // last: they join before the rest goes
+  Executor cancel_executor_{ExecutorOptions{"the executor of cancellations", 1, ExecutorPriority::kUrgent}};
 };
 
 }  // namespace external_command

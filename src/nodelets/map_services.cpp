@@ -68,7 +68,7 @@ MapServices::MapServices(const ros::NodeHandle& nh, const ParameterReader& param
     return find(request, size);
   };
   callbacks.refuse = [](const ros::M_string&) { return refusal(); };
-  server_ = serveOn<FindMapObjects>(&lane_, nh, name, std::move(callbacks), context_->params().requests);
+  server_ = serveOn<FindMapObjects>(&executor_, nh, name, std::move(callbacks), context_->params().requests);
 }
 
 MapServices::~MapServices() { server_.shutdown(); }

@@ -23,7 +23,7 @@ class MapServices {
 
   const std::shared_ptr<ProcessContext> context_;
   ros::ServiceServer server_;
-  DedicatedLane lane_{LaneOptions{"the lane of the map's objects"}};  // last: it joins before the rest goes
+  Executor executor_{ExecutorOptions{"the executor of the map's objects"}};  // last: it joins before the rest goes
 };
 
 /// @throws InvalidRequest  kind is none of MapObject's constants.

@@ -41,12 +41,12 @@ class MoveBaseAdapter : public CommandProcessor {
   void take(MoveBaseFront::Arrived goal);
   void cancel(const std::string& id);
 
-  /// On the lane of calls.
+  /// On the executor of calls.
   void carryOutNext();
   CommandStatus carryOut(const Request& request);
   CommandStatus call(const Request& request);
 
-  /// On the lane of the goals.
+  /// On the executor of the goals.
   void tick();
 
   /// A plan that is in work cannot be cancelled before the service knows it: tried until it is.
@@ -68,13 +68,13 @@ class MoveBaseAdapter : public CommandProcessor {
 
   std::mutex mutex_;
   std::optional<Request> waiting_, in_work_;  ///< guarded by mutex_
-  std::string driven_;                        ///< id of the last goal that was sent; of the lane of calls
+  std::string driven_;                        ///< id of the last goal that was sent; of the executor of calls
 
   std::unique_ptr<ActionGoals> goals_;
   std::unique_ptr<MoveBaseFront> front_;
-  DedicatedLane plans_{LaneOptions{"the move_base adapter's lane of plans"}};
+  Executor plans_{ExecutorOptions{"the move_base adapter's executor of plans"}};
   ros::ServiceServer make_plan_;
-  DedicatedLane calls_{LaneOptions{"the move_base adapter's lane of calls"}};
+  Executor calls_{ExecutorOptions{"the move_base adapter's executor of calls"}};
 };
 
 }  // namespace external_command

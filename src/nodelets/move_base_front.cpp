@@ -76,7 +76,7 @@ class MoveBaseFront::Server {
     ros::SteadyTimerOptions options;
     options.period = ros::WallDuration(kPeriod);
     options.callback = [this](const ros::SteadyTimerEvent&) { look(); };
-    options.callback_queue = goals_.lane().queue();
+    options.callback_queue = goals_.executor().queue();
     timer_ = nh_.createSteadyTimer(options);
     if (goal_topic_.empty()) return;
     nh_.setCallbackQueue(server_.door().queue());

@@ -31,7 +31,7 @@ class MoveBaseFront {
     std::function<void(const std::string& caller)> require;  ///< throws where that one may send no goals
     std::function<void(Arrived goal)> goal;                  ///< must not wait
     std::function<void(const std::string& id)> cancel;       ///< must not wait
-    std::function<void()> tick;                              ///< on the lane of the goals, 5 times a second
+    std::function<void()> tick;                              ///< on the executor of the goals, 5 times a second
   };
 
   /// @param action  its name. @param goal_topic  empty: none.

@@ -37,8 +37,8 @@ CommandStatus call(ros::NodeHandle& nh, const std::string& name, const Command& 
 OldRoutingAdapter::~OldRoutingAdapter() {
   request_subscriber_.shutdown();
   goal_subscriber_.shutdown();
-  take_lane_.stop();
-  lane_.stop();
+  take_executor_.stop();
+  executor_.stop();
 }
 
 void OldRoutingAdapter::start() {
@@ -54,7 +54,7 @@ void OldRoutingAdapter::start() {
 
 void OldRoutingAdapter::open() {
   ros::NodeHandle nh(getNodeHandle());
-  nh.setCallbackQueue(take_lane_.queue());
+  nh.setCallbackQueue(take_executor_.queue());
   const auto on_request = [this](const ros::MessageEvent<RoutingRequest const>& event) {
     take(event.getConstMessage());
   };
@@ -93,7 +93,7 @@ void OldRoutingAdapter::take(const RoutingRequest::ConstPtr& request) {
     refuse(*dropped, makeStatus(0, CommandStatus::ERROR, ErrorCode::kSuperseded,
                                 text("dropped for newer requests: more than ", kMaxWaiting, " were waiting")));
   }
-  lane_.post([this] { carryOutNext(); });
+  executor_.post([this] { carryOutNext(); });
 }
 
 void OldRoutingAdapter::carryOutNext() {

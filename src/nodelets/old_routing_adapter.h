@@ -56,10 +56,10 @@ class OldRoutingAdapter : public CommandProcessor {
   std::optional<RoutingRequestConverter> converter_;
   ros::Publisher response_publisher_;
   std::mutex mutex_;
-  std::deque<Waiting> waiting_;                                             ///< guarded by mutex_
-  DedicatedLane take_lane_{LaneOptions{"the adapter's lane of requests"}};  // before its subscribers
+  std::deque<Waiting> waiting_;                                                    ///< guarded by mutex_
+  Executor take_executor_{ExecutorOptions{"the adapter's executor of requests"}};  // before its subscribers
   ros::Subscriber request_subscriber_, goal_subscriber_;
-  DedicatedLane lane_{LaneOptions{"the adapter's lane of calls"}};  // last: joins before the rest goes
+  Executor executor_{ExecutorOptions{"the adapter's executor of calls"}};  // last: joins before the rest goes
 };
 
 }  // namespace external_command

@@ -144,7 +144,7 @@ void PathFollowCommandProcessor::open() {
   parameters().readName("input_path_name", &topic);
   if (topic.empty()) return;
   ros::NodeHandle nh(getNodeHandle());
-  nh.setCallbackQueue(lane().queue());
+  nh.setCallbackQueue(executor().queue());
   const auto on_path = [this](const ros::MessageEvent<nav_msgs::Path const>& event) { takePath(event); };
   path_subscriber_ = subscribeBounded<nav_msgs::Path>(nh, topic, 10, on_path, context().params().requests);
 }

@@ -9,17 +9,17 @@
 
 #include "external_command/core/text.h"
 #include "external_command/ros/bounded_service.h"
-#include "external_command/ros/dedicated_lane.h"
+#include "external_command/ros/executor.h"
 
 namespace external_command {
 
-/// A service of bounded requests on a lane.
+/// A service of bounded requests on an executor.
 /// @throws InternalError  this process has a service of that name already.
 template <class Service>
-ros::ServiceServer serveOn(DedicatedLane* lane, ros::NodeHandle nh, const std::string& name,
+ros::ServiceServer serveOn(Executor* executor, ros::NodeHandle nh, const std::string& name,
                            BoundedServiceCallbacks<Service> callbacks, const RequestLimits& limits) {
   ros::AdvertiseServiceOptions options = boundedService<Service>(name, std::move(callbacks), limits);
-  options.callback_queue = lane->queue();
+  options.callback_queue = executor->queue();
   ros::ServiceServer server = nh.advertiseService(options);
   if (server) return server;
   throw InternalError(

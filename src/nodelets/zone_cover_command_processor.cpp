@@ -60,7 +60,7 @@ ZoneCoverCommandProcessor::ZoneCoverCommandProcessor()
 ZoneCoverCommandProcessor::~ZoneCoverCommandProcessor() {
   stopServing();
   tracking_timer_.stop();
-  tracking_lane_.stop();
+  tracking_executor_.stop();
 }
 
 void ZoneCoverCommandProcessor::start() {
@@ -83,7 +83,7 @@ void ZoneCoverCommandProcessor::open() {
   ros::SteadyTimerOptions options;
   options.period = ros::WallDuration(kTrackingPeriod);
   options.callback = [this](const ros::SteadyTimerEvent&) { track(); };
-  options.callback_queue = tracking_lane_.queue();
+  options.callback_queue = tracking_executor_.queue();
   tracking_timer_ = getNodeHandle().createSteadyTimer(options);
 }
 
@@ -140,8 +140,8 @@ CoverageArea ZoneCoverCommandProcessor::zoneOf(const ZoneCoverCommand& command, 
   CoverageArea zone{by_area ? areaOf(command).polygon : toPolygon(command.drivable_roi, frame, "drivable_roi"), {}};
   for (std::size_t i = 0; i < command.non_drivable_roi.size(); ++i) {
     cancel.throwIfCancelled();
-    zone.holes.push_back(obstaclePolygon(toMapPoints(command.non_drivable_roi[i].points, frame),
-                                         text("non_drivable_roi[", i, "]")));
+    zone.holes.push_back(
+        obstaclePolygon(toMapPoints(command.non_drivable_roi[i].points, frame), text("non_drivable_roi[", i, "]")));
   }
   zone.grid = planner_->grid();
   zone.limits = planner_->regionLimits();

@@ -69,7 +69,7 @@ class ZoneCoverCommandProcessor : public MotionCommandProcessor<ZoneCover> {
   std::mutex sweep_mutex_;
   std::optional<Sweep> sweep_;
   LogThrottle not_followed_{10.0};
-  DedicatedLane tracking_lane_{LaneOptions{"the lane that follows a sweep"}};  // before its timer
+  Executor tracking_executor_{ExecutorOptions{"the executor that follows a sweep"}};  // before its timer
   ros::SteadyTimer tracking_timer_;
 };
 

@@ -66,7 +66,7 @@ struct ZoneKeeper::Draft::State {
 ZoneKeeper::Draft::~Draft() {
   const std::lock_guard<std::mutex> lock(keeper_.mutex_);
   if (state_->is_adopted) return;
-  keeper_.lane_.post([path = state_->temporary] { durable_file::remove(path); });
+  keeper_.executor_.post([path = state_->temporary] { durable_file::remove(path); });
 }
 
 std::string ZoneKeeper::Draft::failure() const {
@@ -84,7 +84,7 @@ ZoneKeeper::~ZoneKeeper() {
       kept->is_over = true;
       if (kept->is_dirty && !kept->is_busy) post(kept);
     }
-    lane_.post([this, &is_done] {
+    executor_.post([this, &is_done] {
       const std::lock_guard<std::mutex> last(mutex_);
       is_done = true;
       changed_.notify_all();
@@ -92,14 +92,14 @@ ZoneKeeper::~ZoneKeeper() {
     const auto isBusy = [](const auto& kept) { return kept.second->is_busy; };
     changed_.wait_for(lock, kFarewell, [&] { return is_done && std::none_of(kept_.begin(), kept_.end(), isBusy); });
   }
-  lane_.stop();
+  executor_.stop();
 }
 
 std::unique_ptr<ZoneKeeper::Draft> ZoneKeeper::draft(const ZonePlanFile& file, const CoverageProgress& progress) {
   auto state = std::make_shared<Draft::State>(
       Draft::State{file, file.temporaryPath(), std::make_shared<std::string>(zoneLines(progress.lines)), progress});
   std::unique_ptr<Draft> draft(new Draft(this, state));
-  lane_.post([this, state] {
+  executor_.post([this, state] {
     const std::string failure =
         failureIn([&] { create(state->temporary, zoneHead(state->file.digest(), state->progress), *state->lines); });
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -119,7 +119,7 @@ void ZoneKeeper::adopt(const Draft& draft) {
   state->is_adopted = true;
   kept->is_dirty = kept->is_busy = true;
   kept_[state->file.path()] = kept;
-  lane_.post([this, kept, state] { place(kept, state); });
+  executor_.post([this, kept, state] { place(kept, state); });
 }
 
 void ZoneKeeper::note(const std::string& path, const CoverageProgress& progress, bool at_once) {
@@ -173,7 +173,7 @@ std::optional<CoverageProgress> ZoneKeeper::unwritten(const std::string& path) {
 /// With the mutex held.
 void ZoneKeeper::post(const std::shared_ptr<Kept>& kept) {
   kept->is_busy = true;
-  lane_.post([this, kept] { write(kept); });
+  executor_.post([this, kept] { write(kept); });
 }
 
 void ZoneKeeper::write(const std::shared_ptr<Kept>& kept) {

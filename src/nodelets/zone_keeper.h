@@ -9,8 +9,8 @@
 #include <optional>
 #include <string>
 
-#include "external_command/ros/dedicated_lane.h"
-#include "external_command/ros/log_lane.h"
+#include "external_command/ros/executor.h"
+#include "external_command/ros/log_writer.h"
 #include "zone_plan_file.h"
 
 namespace external_command {
@@ -80,7 +80,7 @@ class ZoneKeeper {
   std::condition_variable changed_;
   std::map<std::string, std::shared_ptr<Kept>> kept_;  ///< by the files' paths
   LogThrottle warnings_{10.0};                         ///< one per that many seconds
-  DedicatedLane lane_{LaneOptions{"the lane of the zones' files"}};
+  Executor executor_{ExecutorOptions{"the executor of the zones' files"}};
 };
 
 }  // namespace external_command

@@ -36,7 +36,7 @@ class ActionGoals::Goal {
   std::atomic<Stage> stage{Stage::kWaiting};
   std::atomic<bool> is_cancelled{false};
 
-  // Of the lane.
+  // Of the executor.
   const std::unique_ptr<ClientGoal> client;
   const Clock::time_point told_from = Clock::now() + kQuiet;
   std::string cancelled_by;
@@ -61,7 +61,7 @@ ActionGoals::ActionGoals(ProcessContext& context, const std::string& name)
   using Slot = ProcessContext::StatusChanges::slot_type;
   // The registry calls it while it is held: it must not wait.
   const auto on_change = [this, line = line_.get()](CommandSerial serial, const CommandStatus& status) {
-    if (line->goals > 0) line->lane.post([this, serial, status] { noteChange(serial, status); });
+    if (line->goals > 0) line->executor.post([this, serial, status] { noteChange(serial, status); });
   };
   changes_ = context.statusChanges().connect(Slot(on_change).track_foreign(line_));
 }
@@ -69,18 +69,18 @@ ActionGoals::ActionGoals(ProcessContext& context, const std::string& name)
 ActionGoals::~ActionGoals() {
   changes_.disconnect();
   std::promise<void> done;
-  line_->lane.post([&] {
+  line_->executor.post([&] {
     endAll();
     done.set_value();
   });
   done.get_future().wait();
-  line_->lane.stop();
+  line_->executor.stop();
 }
 
 ActionGoals::GoalPtr ActionGoals::add(const std::string& id, std::unique_ptr<ClientGoal> client, Accept accept) {
   const auto goal = std::make_shared<Goal>(id, std::move(client), accept == Accept::kAtOnce);
   ++line_->goals;
-  line_->lane.post([this, goal] { goals_[goal->id] = goal; });
+  line_->executor.post([this, goal] { goals_[goal->id] = goal; });
   return goal;
 }
 
@@ -91,11 +91,11 @@ bool ActionGoals::begin(const GoalPtr& goal) {
 
 void ActionGoals::admitted(const GoalPtr& goal, CommandSerial serial) {
   if (goal->is_cancelled) throw Cancelled("its goal was cancelled before it became a command; nothing was sent");
-  line_->lane.post([this, goal, serial] { follow(goal, serial); });
+  line_->executor.post([this, goal, serial] { follow(goal, serial); });
 }
 
 void ActionGoals::answered(const GoalPtr& goal, const CommandStatus& status) {
-  line_->lane.post([this, goal, status] {
+  line_->executor.post([this, goal, status] {
     goal->is_answered = true;
     if (hasEnded(status) && !goal->end) goal->end = status;
     update(goal);
@@ -103,7 +103,7 @@ void ActionGoals::answered(const GoalPtr& goal, const CommandStatus& status) {
 }
 
 void ActionGoals::cancel(const std::string& id, const std::string& by) {
-  line_->lane.post([this, id, by] { cancelNow(id, by); });
+  line_->executor.post([this, id, by] { cancelNow(id, by); });
 }
 
 void ActionGoals::cancelNow(const std::string& id, const std::string& by) {
@@ -179,7 +179,8 @@ void ActionGoals::tick() {
 void ActionGoals::endAll() {
   const std::map<std::string, GoalPtr> goals = goals_;
   for (const auto& [id, goal] : goals) {
-    if (!goal->end) goal->end = goal->serial ? statusOf(*goal->serial) : cancelledEarly("the unloading of its processor");
+    if (!goal->end)
+      goal->end = goal->serial ? statusOf(*goal->serial) : cancelledEarly("the unloading of its processor");
     if (!hasEnded(*goal->end)) {
       goal->end->message = "its processor was unloaded; the command goes on: " + goal->end->message;
     }

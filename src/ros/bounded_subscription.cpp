@@ -3,7 +3,7 @@
 
 #include "external_command/core/printable.h"
 #include "external_command/core/text.h"
-#include "external_command/ros/log_lane.h"
+#include "external_command/ros/log_writer.h"
 #include "external_command/ros/status.h"
 
 namespace external_command {

@@ -5,7 +5,7 @@
 
 #include "external_command/core/text.h"
 #include "external_command/ros/bounded_subscription.h"
-#include "external_command/ros/log_lane.h"
+#include "external_command/ros/log_writer.h"
 #include "external_command/ros/refusal_pace.h"
 #include "external_command/ros/status.h"
 
@@ -24,7 +24,7 @@ bool asksForAnother(const CommandStatus& status) {
 CommandService::CommandService(std::string service) : service_name_(std::move(service)) {}
 
 CommandService::~CommandService() {
-  if (lane_)
+  if (executor_)
     logLater(LogLevel::kError, id() + ": its destructor did not call stopServing(); a late request would crash");
   stopServing();
 }
@@ -33,8 +33,8 @@ void CommandService::stopServing() {
   if (action_) action_->stopTaking();
   server_.shutdown();
   conditions_.clear();
-  if (lane_) cancelWork();
-  lane_.reset();  // joins
+  if (executor_) cancelWork();
+  executor_.reset();  // joins
   action_.reset();
 }
 
@@ -75,19 +75,19 @@ void CommandService::needsPose() {
 void CommandService::open() {
   const Threads threads = this->threads();
   refusal_pace_ = std::make_unique<RefusalPace>(threads.count / 2);
-  LaneOptions options;
-  options.name = "the lane of " + id();
+  ExecutorOptions options;
+  options.name = "the executor of " + id();
   options.threads = threads.count;
   options.priority = threads.priority;
   options.stamp = [&gate = context().gate()] { return gate.arrive(); };
-  lane_ = std::make_unique<DedicatedLane>(options);
+  executor_ = std::make_unique<Executor>(options);
   openService();
   if (make_action_) action_ = make_action_();
 }
 
 void CommandService::openService() {
   ros::AdvertiseServiceOptions service = serviceOptions();
-  service.callback_queue = lane_->queue();
+  service.callback_queue = executor_->queue();
   server_ = getNodeHandle().advertiseService(service);
   if (server_) return;
   stopServing();

@@ -65,13 +65,13 @@ Display::Display(ros::NodeHandle nh, const DisplayParams& params, std::shared_pt
     : params_(params),
       map_(std::move(map)),
       vehicle_(std::move(vehicle)),
-      lane_(LaneOptions{"the display's lane", 1, LanePriority::kBackground}),
-      nh_(onQueue(nh, lane_.queue())) {
+      executor_(ExecutorOptions{"the display's executor", 1, ExecutorPriority::kBackground}),
+      nh_(onQueue(nh, executor_.queue())) {
   if (map_) {
     scene_.chooser.emplace(*map_, params_.map);
     ids_.chooser.emplace(*map_, MapPartParams{params_.max_ids, params_.map.radius});
   }
-  // Who subscribes is greeted on the lane, by what is current then.
+  // Who subscribes is greeted on the executor, by what is current then.
   const auto advertise = [&](const std::string& topic, bool latch, MarkerArray (Display::*greeting)()) {
     const ros::Publisher publisher = nh_.advertise<MarkerArray>(
         topic, 10,
@@ -95,7 +95,7 @@ ros::SteadyTimer Display::every(double period, void (Display::*job)()) {
   ros::SteadyTimerOptions options;
   options.period = ros::WallDuration(period);
   options.callback = [this, job](const ros::SteadyTimerEvent&) { (this->*job)(); };
-  options.callback_queue = lane_.queue();
+  options.callback_queue = executor_.queue();
   return nh_.createSteadyTimer(options);
 }
 

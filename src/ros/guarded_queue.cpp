@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "external_command/core/text.h"
-#include "external_command/ros/log_lane.h"
+#include "external_command/ros/log_writer.h"
 
 namespace external_command {
 

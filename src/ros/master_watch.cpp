@@ -12,7 +12,7 @@
 #include <exception>
 
 #include "external_command/core/text.h"
-#include "external_command/ros/log_lane.h"
+#include "external_command/ros/log_writer.h"
 #include "external_command/ros/name_twin.h"
 #include "registrations.h"
 

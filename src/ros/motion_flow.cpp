@@ -13,11 +13,11 @@
 #include "external_command/RoutingResponse.h"
 #include "external_command/core/text.h"
 #include "external_command/ros/conversions.h"
-#include "external_command/ros/log_lane.h"
+#include "external_command/ros/log_writer.h"
 #include "external_command/ros/motion_bytes.h"
 #include "external_command/ros/process_context.h"
 #include "external_command/ros/status.h"
-#include "path_memory.h"
+#include "external_command/routing/reference_paths.h"
 
 namespace external_command {
 
@@ -106,7 +106,7 @@ void MotionFlow::addRoute(const RoutingTask& task, double target_speed, const Ca
   plan->route = task.route ? task.route : router.findRoute(task.query, cancel);
   const double spacing = context_.params().reference_path.spacing;
   context_.params().path_bounds.require(plan->route->distance, plan->route->distance / spacing);
-  ReferencePath path = referencePathsOf(context_)->find(*plan->route, {target_speed, startOnLane(task), cancel});
+  ReferencePath path = context_.requireReferencePaths().find(*plan->route, {target_speed, startOnLane(task), cancel});
   plan->path = std::move(path.path);
   const std::vector<std::string> tight = describe(map, path.tight, context_.params().vehicle);
   plan->report.warnings.insert(plan->report.warnings.end(), tight.begin(), tight.end());

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "external_command/core/error.h"
+#include "external_command/core/parameter_range.h"
 #include "external_command/core/text.h"
 
 namespace external_command {
@@ -20,24 +21,18 @@ int coresOrMore(int threads) {
   return threads > 0 ? threads : std::max(2, cores);
 }
 
-void requireWithin(const char* key, int value, int low, int high) {
-  if (value < low || value > high) {
-    throw InvalidParameter(text(key, " is ", value, "; it must lie in [", low, ", ", high, "]"));
-  }
-}
-
 }  // namespace
 
 void PlanningLimits::validate() const {
-  requireWithin("planning_threads", threads, 0, 256);
-  requireWithin("planning_queue", waiting, 0, 1000);
+  requireParameter("planning_threads", threads, 0, 256);
+  requireParameter("planning_queue", waiting, 0, 1000);
 }
 
 PlanningPool::PlanningPool(const PlanningLimits& limits)
     : most_dry_runs_(std::max(1, coresOrMore(limits.threads) - 1)),
       most_waiting_(limits.waiting),
-      lane_(LaneOptions{"the planning threads", static_cast<unsigned>(most_commands_ + most_dry_runs_),
-                        LanePriority::kBackground}) {}
+      executor_(ExecutorOptions{"the planning threads", static_cast<unsigned>(most_commands_ + most_dry_runs_),
+                                ExecutorPriority::kBackground}) {}
 
 std::shared_ptr<PlanningPool> PlanningPool::acquire(const PlanningLimits& limits) {
   static std::mutex mutex;
@@ -94,7 +89,7 @@ PlanningPool::Load PlanningPool::load() const {
 
 void PlanningPool::Slot::run(const std::function<void()>& job) const {
   std::packaged_task<void()> task(job);
-  pool_->lane_.post([&task] { task(); });
+  pool_->executor_.post([&task] { task(); });
   task.get_future().get();
 }
 

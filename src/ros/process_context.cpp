@@ -12,7 +12,7 @@
 #include "external_command/ros/map_store.h"
 #include "external_command/ros/parameter_check.h"
 #include "external_command/ros/status.h"
-#include "path_memory.h"
+#include "external_command/routing/reference_paths.h"
 
 namespace external_command {
 
@@ -130,9 +130,11 @@ std::shared_ptr<ProcessContext> ProcessContext::acquire(const ros::NodeHandle& n
 ProcessContext::ProcessContext(const ros::NodeHandle& nh, const ros::NodeHandle& parameters)
     : params_(readContextParams(ParameterReader(parameters))),
       nh_(onGlobalQueue(nh)),
-      log_lane_(LogLane::acquire()),
+      log_writer_(LogWriter::acquire()),
       planning_pool_(PlanningPool::acquire(params_.planning)),
       router_(routerOf(params_)),
+      reference_paths_(router_ ? ReferencePaths::acquire(router_->mapPtr(), params_.vehicle, params_.reference_path)
+                               : nullptr),
       vehicle_pose_(params_.map_frame, params_.base_frame, params_.max_pose_age, params_.max_future_stamp),
       planning_pads_(configuredPads()),
       registry_(
@@ -149,15 +151,15 @@ ProcessContext::ProcessContext(const ros::NodeHandle& nh, const ros::NodeHandle&
       readiness_topic_(advertise<Readiness>(params_.readiness_topic, true), conditions_),
       diagnostics_(makeDiagnostics(parameters)),
       display_(nh_, params_.display, router_ ? router_->mapPtr() : nullptr, [this] { return placeOf(vehicle_pose_); }),
-      housekeeping_(LaneOptions{"the housekeeping lane"}),
-      reports_(LaneOptions{"the lane of the vehicle's reports"}) {
+      housekeeping_(ExecutorOptions{"the housekeeping executor"}),
+      reports_(ExecutorOptions{"the executor of the vehicle's reports"}) {
   publishOrigin(parameters, router_.get());
   master_watch_->keepParameters(parameters.getNamespace());
-  const auto every = [&](double period, DedicatedLane& lane, const std::function<void()>& job) {
+  const auto every = [&](double period, Executor& executor, const std::function<void()>& job) {
     ros::SteadyTimerOptions options;
     options.period = ros::WallDuration(period);
     options.callback = [job](const ros::SteadyTimerEvent&) { job(); };
-    options.callback_queue = lane.queue();
+    options.callback_queue = executor.queue();
     return nh_.createSteadyTimer(options);
   };
   memory_timer_ = every(kMemoryPeriod, housekeeping_, [this] { giveBackMemory(); });
@@ -202,7 +204,7 @@ Cancellation ProcessContext::cancelById(std::int64_t command_id, const std::stri
   return cancel(*serial, by);
 }
 
-ProcessContext::~ProcessContext() { forgetReferencePathsOf(*this); }
+ProcessContext::~ProcessContext() = default;
 
 void ProcessContext::takeReport(CommandStatus report, const std::string& processor) {
   last_report_ = ros::SteadyTime::now().toSec();
@@ -249,6 +251,11 @@ std::string ProcessContext::mapWords() const {
 const Router& ProcessContext::requireRouter() const {
   if (router_) return *router_;
   throw NotReady("no map is loaded; set ~map_file of the component and start it again");
+}
+
+const ReferencePaths& ProcessContext::requireReferencePaths() const {
+  requireRouter();
+  return *reference_paths_;
 }
 
 }  // namespace external_command

@@ -5,7 +5,7 @@
 
 #include "external_command/core/text.h"
 #include "external_command/ros/bounded_subscription.h"
-#include "external_command/ros/log_lane.h"
+#include "external_command/ros/log_writer.h"
 
 namespace external_command {
 
@@ -21,13 +21,13 @@ double steadyNow() { return ros::SteadyTime::now().toSec(); }
 }  // namespace
 
 TransformFeed::TransformFeed(double max_future_stamp) : store_(max_future_stamp) {
-  nh_.setCallbackQueue(lane_.queue());
+  nh_.setCallbackQueue(executor_.queue());
   subscribe("/tf", false, &moving_);
   subscribe("/tf_static", true, &fixed_);
   ros::SteadyTimerOptions options;
   options.period = ros::WallDuration(kTidyPeriod);
   options.callback = [this](const ros::SteadyTimerEvent&) { store_.tidy(ros::Time::now(), steadyNow()); };
-  options.callback_queue = lane_.queue();
+  options.callback_queue = executor_.queue();
   tidying_ = nh_.createSteadyTimer(options);
 }
 
@@ -35,7 +35,7 @@ TransformFeed::~TransformFeed() {
   tidying_.stop();
   moving_.shutdown();
   fixed_.shutdown();
-  lane_.stop();
+  executor_.stop();
 }
 
 void TransformFeed::subscribe(const std::string& topic, bool is_static, ros::Subscriber* subscriber) {

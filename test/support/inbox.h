@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "external_command/ros/dedicated_lane.h"
+#include "external_command/ros/executor.h"
 
 namespace external_command {
 
@@ -21,7 +21,7 @@ class Inbox {
  public:
   explicit Inbox(const std::string& topic) {
     ros::NodeHandle nh;
-    nh.setCallbackQueue(lane_.queue());
+    nh.setCallbackQueue(executor_.queue());
     const boost::function<void(const Message&)> on_message = [this](const Message& message) {
       const std::lock_guard<std::mutex> lock(mutex_);
       messages_.push_back(message);
@@ -29,7 +29,7 @@ class Inbox {
     };
     subscriber_ = nh.subscribe<Message>(topic, 100, on_message);
   }
-  ~Inbox() { lane_.stop(); }
+  ~Inbox() { executor_.stop(); }
 
   /// False where `count` messages that match have not come within 10 s.
   bool waitFor(std::size_t count, bool (*matches)(const Message&) = &isAny) {
@@ -49,7 +49,7 @@ class Inbox {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Message> messages_;
-  DedicatedLane lane_;
+  Executor executor_;
   ros::Subscriber subscriber_;
 };
 

@@ -13,8 +13,8 @@
 
 namespace external_command {
 
-/// The action beside a service: each goal is one request, carried out on the processor's own lane. Its goal has a field
-/// `command`, its feedback `status`, its result `status` and, where the service's response has one, `report`.
+/// The action beside a service: each goal is one request, carried out on the processor's own executor. Its goal has a
+/// field `command`, its feedback `status`, its result `status` and, where the service's response has one, `report`.
 ///
 /// To be included by the .cpp file of a processor, not by its header: actionlib takes long to compile.
 template <class Action, class Service>
@@ -24,7 +24,7 @@ class ActionFront : public CommandAction {
   using Response = typename Service::Response;
 
   struct Processor {
-    DedicatedLane* lane = nullptr;  ///< that requests are carried out on; no longer used after stopTaking()
+    Executor* executor = nullptr;  ///< that requests are carried out on; no longer used after stopTaking()
     /// Carries out what came as a goal. @param admitted  told when it becomes a command; what it throws refuses it.
     std::function<Response(const Command& command, const GoalArrival& how,
                            const std::function<void(const AdmittedCommand&)>& admitted)>
@@ -46,7 +46,7 @@ class ActionFront : public CommandAction {
       server_.tick();
       goals_.tick();
     };
-    options.callback_queue = goals_.lane().queue();
+    options.callback_queue = goals_.executor().queue();
     timer_ = timer_nh.createSteadyTimer(options);
   }
 
@@ -117,7 +117,7 @@ class ActionFront : public CommandAction {
       goals_.begin(goal);
       return goals_.answered(goal, processor_.refuse(how));
     }
-    processor_.lane->post([this, goal, client, how, content = handle.getGoal()] {
+    processor_.executor->post([this, goal, client, how, content = handle.getGoal()] {
       if (goals_.begin(goal)) goals_.answered(goal, carryOut(goal, client, *content, how));
     });
   }
@@ -147,7 +147,7 @@ void ServiceCommandProcessor<Service>::offerAction() {
   this->setAction([this] {
     using Front = ActionFront<Action, Service>;
     typename Front::Processor processor;
-    processor.lane = &this->lane();
+    processor.executor = &this->executor();
     processor.process = [this](const Command& command, const GoalArrival& how,
                                const std::function<void(const AdmittedCommand&)>& admitted) {
       return process(command, Origin{how.caller, how.arrival, {}, admitted});

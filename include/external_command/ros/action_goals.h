@@ -11,7 +11,7 @@
 
 #include "external_command/CommandStatus.h"
 #include "external_command/ros/command_identity.h"
-#include "external_command/ros/dedicated_lane.h"
+#include "external_command/ros/executor.h"
 #include "external_command/ros/process_context.h"
 
 namespace external_command {
@@ -43,8 +43,8 @@ class ClientGoal {
 ///             a command  from admitted() on: ACTIVE
 ///             answered   from answered() on; it ends when its command has ended, too
 ///
-/// All that clients are told is told on lane(), and nothing in a goal's first 0.15 s: actionlib's SimpleActionClient
-/// misses for good what it hears before its send_goal() has returned. Thread-safe.
+/// All that clients are told is told on executor(), and nothing in a goal's first 0.15 s: actionlib's
+/// SimpleActionClient misses for good what it hears before its send_goal() has returned. Thread-safe.
 class ActionGoals {
  public:
   class Goal;
@@ -56,7 +56,7 @@ class ActionGoals {
   ~ActionGoals();
 
   /// For other short callbacks of the action.
-  DedicatedLane& lane() { return line_->lane; }
+  Executor& executor() { return line_->executor; }
 
   enum class Accept {
     kAsCommand,  ///< when it becomes a command; a goal that becomes none is rejected
@@ -78,21 +78,21 @@ class ActionGoals {
   /// @param by  who cancels it, for the status' message.
   void cancel(const std::string& id, const std::string& by);
 
-  /// Tells what was kept back; to be called on lane() every 0.1 s.
+  /// Tells what was kept back; to be called on executor() every 0.1 s.
   void look();
 
-  /// Tells every client how its command fares; to be called on lane() a few times per second.
+  /// Tells every client how its command fares; to be called on executor() a few times per second.
   void tick();
 
  private:
   /// Outlives this object for whoever is telling of a change just then.
   struct Line {
-    explicit Line(const std::string& name) : lane(LaneOptions{name}) {}
+    explicit Line(const std::string& name) : executor(ExecutorOptions{name}) {}
     std::atomic<int> goals{0};
-    DedicatedLane lane;
+    Executor executor;
   };
 
-  // All on the lane.
+  // All on the executor.
   void cancelNow(const std::string& id, const std::string& by);
   void follow(const GoalPtr& goal, CommandSerial serial);
   void noteChange(CommandSerial serial, const CommandStatus& status);
@@ -104,7 +104,7 @@ class ActionGoals {
 
   ProcessContext& context_;
   const std::shared_ptr<Line> line_;
-  std::map<std::string, GoalPtr> goals_;  ///< of the lane
+  std::map<std::string, GoalPtr> goals_;  ///< of the executor
   boost::signals2::scoped_connection changes_;
 };
 

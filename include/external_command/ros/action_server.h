@@ -22,9 +22,9 @@
 
 namespace external_command {
 
-/// actionlib's server, with topics of our own: bounded in size and pace, on a lane of their own, by a steady clock. The
-/// list of goals in each status message is bounded too; actionlib keeps cancels of goals that it does not know, and
-/// believes stamps of the future.
+/// actionlib's server, with topics of our own: bounded in size and pace, on an executor of their own, by a steady
+/// clock. The list of goals in each status message is bounded too; actionlib keeps cancels of goals that it does not
+/// know, and believes stamps of the future.
 ///
 /// Who makes one must call close() before what the callbacks use goes.
 template <class Action>
@@ -51,8 +51,8 @@ class BoundedActionServer : public actionlib::ActionServerBase<Action> {
         name_(std::move(name)),
         callbacks_(std::move(callbacks)),
         most_goals_(most_goals),
-        door_(LaneOptions{"the door of " + name_, 1, LanePriority::kNormal,
-                          [&gate = context.gate()] { return gate.arrive(); }}) {}
+        door_(ExecutorOptions{"the door of " + name_, 1, ExecutorPriority::kNormal,
+                              [&gate = context.gate()] { return gate.arrive(); }}) {}
 
   ~BoundedActionServer() override { close(); }
 
@@ -69,7 +69,7 @@ class BoundedActionServer : public actionlib::ActionServerBase<Action> {
   }
 
   /// Where goals and cancels come in.
-  DedicatedLane& door() { return door_; }
+  Executor& door() { return door_; }
 
   /// A goal that came another way. On door().
   void take(const ActionGoalConstPtr& goal, GoalArrival how) {
@@ -189,7 +189,7 @@ class BoundedActionServer : public actionlib::ActionServerBase<Action> {
   const GoalArrival* arrived_ = nullptr;       ///< of the goal that is being taken; of the door
   ros::Publisher result_, feedback_, status_;  ///< the context's: results leave, though this is gone
   ros::Subscriber goal_subscriber_, cancel_subscriber_;
-  DedicatedLane door_;
+  Executor door_;
 };
 
 }  // namespace external_command

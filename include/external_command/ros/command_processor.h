@@ -17,7 +17,7 @@ namespace external_command {
 /// A derived class may   override start() to read parameters and to prepare, and open() to begin to take requests. What
 ///                       they throw is logged as FATAL with its text and stops the start: the processor is destroyed,
 ///                       whatever it has begun, while messages and requests come in.
-/// What callbacks throw, on the nodelet's queues or a lane, is logged and ends that callback only.
+/// What callbacks throw, on the nodelet's queues or an executor, is logged and ends that callback only.
 ///
 /// A derived class must  not publish or subscribe before start(); context() and parameters() are there from then on, in
 ///                       any thread.

@@ -17,7 +17,7 @@
 #include "external_command/ros/command_action.h"
 #include "external_command/ros/command_processor.h"
 #include "external_command/ros/goal_arrival.h"
-#include "external_command/ros/log_lane.h"
+#include "external_command/ros/log_writer.h"
 
 namespace external_command {
 
@@ -31,13 +31,13 @@ class CommandService : public CommandProcessor {
  protected:
   struct Threads {
     unsigned count = 1;  ///< how many requests may run at once
-    LanePriority priority = LanePriority::kNormal;
+    ExecutorPriority priority = ExecutorPriority::kNormal;
   };
 
   /// @param service  default of the parameter `input_command_name`.
   explicit CommandService(std::string service);
 
-  /// Of the processor's lane. Asked once, after start().
+  /// Of the processor's executor. Asked once, after start().
   virtual Threads threads() const { return {}; }
 
   /// Stops serving, cancels the plans in work and waits for requests in work. Must be called by the destructor of the
@@ -70,7 +70,7 @@ class CommandService : public CommandProcessor {
 
   const std::string& serviceName() const { return service_name_; }
   std::string resolvedName() const { return getNodeHandle().resolveName(service_name_); }
-  DedicatedLane& lane() { return *lane_; }
+  Executor& executor() { return *executor_; }
 
   /// Called when a request became a command, before that is executed; or the command that it is a retry of. What it
   /// throws refuses the request.
@@ -131,7 +131,7 @@ class CommandService : public CommandProcessor {
   ActionMaker make_action_;  ///< empty: there is no action
   std::unique_ptr<CommandAction> action_;
   std::unique_ptr<RefusalPace> refusal_pace_;
-  std::unique_ptr<DedicatedLane> lane_;
+  std::unique_ptr<Executor> executor_;
 };
 
 }  // namespace external_command

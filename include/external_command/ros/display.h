@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-#include "external_command/ros/dedicated_lane.h"
+#include "external_command/ros/executor.h"
 #include "external_command/ros/map_part.h"
 #include "external_command/ros/markers.h"
 #include "external_command/ros/parameters.h"
@@ -51,7 +51,7 @@ class Display {
   /// @param vehicle  tells where the vehicle is; nullopt: not known.
   /// @throws InternalError  a topic is published with another type in this process.
   Display(ros::NodeHandle nh, const DisplayParams& params, std::shared_ptr<const HdMap> map, Whereabouts vehicle);
-  ~Display() { lane_.stop(); }
+  ~Display() { executor_.stop(); }
 
   /// Draws `scene` in place of the last command's.
   void show(CommandScene scene);
@@ -77,7 +77,7 @@ class Display {
   const DisplayParams params_;
   const std::shared_ptr<const HdMap> map_;
   const Whereabouts vehicle_;
-  DedicatedLane lane_;  // before what is bound to its queue
+  Executor executor_;   // before what is bound to its queue
   ros::NodeHandle nh_;  ///< on that queue
   View scene_, ids_;
   visualization_msgs::MarkerArray command_;  ///< as it was drawn last

@@ -70,7 +70,7 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
   void cancelWork() override { plans_in_work_.cancelForGood(); }
 
   CommandService::Threads threads() const override {
-    return {this->context().planningPool().threadsPerService(), LanePriority::kNormal};
+    return {this->context().planningPool().threadsPerService(), ExecutorPriority::kNormal};
   }
 
   CommandStatus execute(const Command& command, const AdmittedCommand& admitted, Response* response) final {

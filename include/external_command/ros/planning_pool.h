@@ -6,7 +6,7 @@
 #include <memory>
 #include <mutex>
 
-#include "external_command/ros/dedicated_lane.h"
+#include "external_command/ros/executor.h"
 
 namespace external_command {
 
@@ -83,7 +83,7 @@ class PlanningPool {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   Load load_;
-  DedicatedLane lane_;
+  Executor executor_;
 };
 
 }  // namespace external_command

@@ -13,9 +13,9 @@
 #include "external_command/ros/command_gate.h"
 #include "external_command/ros/command_registry.h"
 #include "external_command/ros/conditions.h"
-#include "external_command/ros/dedicated_lane.h"
 #include "external_command/ros/display.h"
-#include "external_command/ros/log_lane.h"
+#include "external_command/ros/executor.h"
+#include "external_command/ros/log_writer.h"
 #include "external_command/ros/master_watch.h"
 #include "external_command/ros/motion_watch.h"
 #include "external_command/ros/parameters.h"
@@ -31,6 +31,7 @@
 namespace external_command {
 
 class Diagnostics;
+class ReferencePaths;
 
 /// What all processors of one namespace share. Read once, by whoever makes the context.
 struct ContextParams {
@@ -93,6 +94,9 @@ class ProcessContext {
   /// @throws NotReady  no map is configured; the text names the parameter.
   const Router& requireRouter() const;
 
+  /// What the map's reference paths are made by. @throws NotReady  as requireRouter()
+  const ReferencePaths& requireReferencePaths() const;
+
   const VehiclePose& vehiclePose() const { return vehicle_pose_; }
   CommandGate& gate() { return gate_; }
   CommandRegistry& registry() { return registry_; }
@@ -126,8 +130,8 @@ class ProcessContext {
   /// Held from the commit of a motion until everyone knows of it. A stop does not take it.
   std::mutex& sendingMutex() { return sending_mutex_; }
 
-  /// Shows route and path of what was sent, behind the answer and in the order of sending, on the housekeeping lane. A
-  /// stop does not wait for it.
+  /// Shows route and path of what was sent, behind the answer and in the order of sending, on the housekeeping
+  /// executor. A stop does not wait for it.
   void showSentLater();
 
   /// Puts route and path of the motion under way back onto their topics, from where the vehicle has come: it goes on
@@ -150,10 +154,10 @@ class ProcessContext {
   void takeReport(CommandStatus report, const std::string& processor);
 
   /// For the vehicle's reports. Nothing that could wait runs there.
-  DedicatedLane& reports() { return reports_; }
+  Executor& reports() { return reports_; }
 
   /// For other short callbacks that need nothing but this context.
-  DedicatedLane& housekeeping() { return housekeeping_; }
+  Executor& housekeeping() { return housekeeping_; }
 
   /// One publisher per topic for all processors: several latched ones on a topic would each hand a new subscriber its
   /// own last message, and the newest command would not be the last to arrive.
@@ -191,9 +195,10 @@ class ProcessContext {
   ros::NodeHandle nh_;
   std::mutex publishers_mutex_;
   std::map<std::string, Shared> publishers_;
-  const std::shared_ptr<LogLane> log_lane_;
+  const std::shared_ptr<LogWriter> log_writer_;
   const std::shared_ptr<PlanningPool> planning_pool_;
   const std::shared_ptr<const Router> router_;
+  const std::shared_ptr<const ReferencePaths> reference_paths_;  ///< nullptr where there is no router
   const VehiclePose vehicle_pose_;
   PlanningPads planning_pads_;
   PlansInWork plans_in_work_;
@@ -211,9 +216,9 @@ class ProcessContext {
   std::mutex sending_mutex_;
   Display display_;
   LogThrottle odd_reports_{10.0};
-  DedicatedLane housekeeping_, reports_;  // after all that their callbacks use, before what is bound to their queues
-  ArrivalNumber last_arrival_ = 0;        ///< giveBackMemory() looked at it
-  bool has_memory_ = false;               ///< that was not given back since
+  Executor housekeeping_, reports_;  // after all that their callbacks use, before what is bound to their queues
+  ArrivalNumber last_arrival_ = 0;   ///< giveBackMemory() looked at it
+  bool has_memory_ = false;          ///< that was not given back since
   ros::SteadyTimer silence_timer_, motion_timer_, progress_timer_, readiness_timer_, diagnostics_timer_, memory_timer_;
 };
 

@@ -28,7 +28,7 @@ std::uint64_t digestOf(Command command) {
 ///
 /// A derived class must  implement check() and execute(), and call stopServing() in its destructor.
 /// A derived class may   override threads(), actsAlways().
-/// Both run on the processor's own lane, several requests at once where threads() says so.
+/// Both run on the processor's own executor, several requests at once where threads() says so.
 template <class Service>
 class ServiceCommandProcessor : public CommandService {
  public:
@@ -58,7 +58,7 @@ class ServiceCommandProcessor : public CommandService {
   virtual CommandStatus execute(const Command& command, const AdmittedCommand& admitted, Response* response) = 0;
 
   /// Does with a command that came another way what the service does: check, admit, execute, record, log.
-  /// To be called on the processor's lane.
+  /// To be called on the processor's executor.
   Response process(const Command& request, const std::string& caller) {
     return process(request, Origin{caller, arrivalOfThisCallback(), {}, {}});
   }

@@ -10,13 +10,13 @@
 #include <mutex>
 #include <string>
 
-#include "external_command/ros/dedicated_lane.h"
+#include "external_command/ros/executor.h"
 #include "external_command/ros/transform_store.h"
 
 namespace external_command {
 
-/// Listens to /tf and /tf_static on a lane of its own, and keeps what is good. Unlike tf2_ros::TransformListener, whose
-/// thread ends the process where tf2 throws, no message ends or stops it. Thread-safe.
+/// Listens to /tf and /tf_static on an executor of its own, and keeps what is good. Unlike tf2_ros::TransformListener,
+/// whose thread ends the process where tf2 throws, no message ends or stops it. Thread-safe.
 class TransformFeed {
  public:
   /// @param max_future_stamp  as for TransformStore [s].
@@ -35,11 +35,12 @@ class TransformFeed {
 
   TransformStore store_;
   mutable std::mutex mutex_;
-  std::string last_refusal_;                            ///< guarded by mutex_
-  double last_refused_at_ = 0.0;                        ///< steady [s], guarded by mutex_
-  double last_told_ = 0.0;                              ///< steady [s], of the lane's thread
-  std::uint64_t refused_ = 0;                           ///< guarded by mutex_
-  DedicatedLane lane_{LaneOptions{"the lane of /tf"}};  // before what is bound to its queue; stopped in the destructor
+  std::string last_refusal_;      ///< guarded by mutex_
+  double last_refused_at_ = 0.0;  ///< steady [s], guarded by mutex_
+  double last_told_ = 0.0;        ///< steady [s], of the executor's thread
+  std::uint64_t refused_ = 0;     ///< guarded by mutex_
+  Executor executor_{
+      ExecutorOptions{"the executor of /tf"}};  // before what is bound to its queue; stopped in the destructor
   ros::NodeHandle nh_;
   ros::Subscriber moving_, fixed_;
   ros::SteadyTimer tidying_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "external_command/ros/dedicated_lane.h"
+#include "external_command/ros/executor.h"
 
 #include <boost/make_shared.hpp>
 #include <chrono>
@@ -27,15 +27,15 @@ class Job : public ros::CallbackInterface {
   const std::function<void()> job_;
 };
 
-void take(LanePriority priority) {
-  if (priority == LanePriority::kBackground) lowerThreadPriority();
-  if (priority == LanePriority::kUrgent) raiseThreadPriority();
+void take(ExecutorPriority priority) {
+  if (priority == ExecutorPriority::kBackground) lowerThreadPriority();
+  if (priority == ExecutorPriority::kUrgent) raiseThreadPriority();
 }
 
 }  // namespace
 
-struct DedicatedLane::Queues : public ros::CallbackQueueInterface {
-  explicit Queues(const LaneOptions& options)
+struct Executor::Queues : public ros::CallbackQueueInterface {
+  explicit Queues(const ExecutorOptions& options)
       : crew({options.threads, [priority = options.priority] { take(priority); }, [this] { work(); }}),
         guarded(options.name, this, options.stamp) {}
 
@@ -55,20 +55,20 @@ struct DedicatedLane::Queues : public ros::CallbackQueueInterface {
   GuardedQueue guarded;
 };
 
-DedicatedLane::DedicatedLane(LaneOptions options) : queues_(std::make_shared<Queues>(options)) {}
+Executor::Executor(ExecutorOptions options) : queues_(std::make_shared<Queues>(options)) {}
 
-DedicatedLane::~DedicatedLane() {
+Executor::~Executor() {
   stop();
   retire(queues_);
 }
 
-ros::CallbackQueueInterface* DedicatedLane::queue() { return &queues_->guarded; }
+ros::CallbackQueueInterface* Executor::queue() { return &queues_->guarded; }
 
-void DedicatedLane::post(std::function<void()> job) {
+void Executor::post(std::function<void()> job) {
   queues_->guarded.addCallback(boost::make_shared<Job>(std::move(job)), 0);
 }
 
-void DedicatedLane::stop() {
+void Executor::stop() {
   queues_->queue.disable();
   queues_->crew.stop();
   queues_->queue.clear();

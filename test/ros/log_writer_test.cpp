@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "external_command/ros/log_lane.h"
+#include "external_command/ros/log_writer.h"
 
 #include <gtest/gtest.h>
 
@@ -17,15 +17,15 @@ TEST(LogThrottle, LetsOneLineThroughPerPeriodAndCountsTheOthers) {
   EXPECT_TRUE(unlimited.lets(&kept_back));
 }
 
-TEST(LogLane, IsOneForAllWhoKeepIt) {
-  const auto lane = LogLane::acquire();
-  EXPECT_EQ(LogLane::acquire(), lane);
+TEST(LogWriter, IsOneForAllWhoKeepIt) {
+  const auto writer = LogWriter::acquire();
+  EXPECT_EQ(LogWriter::acquire(), writer);
 }
 
-TEST(LogLane, WritesWhatWaitsBeforeItEnds) {
+TEST(LogWriter, WritesWhatWaitsBeforeItEnds) {
   testing::internal::CaptureStdout();
   {
-    const auto lane = LogLane::acquire();
+    const auto writer = LogWriter::acquire();
     for (int i = 0; i < 20; ++i) logLater(LogLevel::kInfo, "a line");
   }
   std::fflush(stdout);

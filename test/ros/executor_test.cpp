@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "external_command/ros/dedicated_lane.h"
+#include "external_command/ros/executor.h"
 
 #include <gtest/gtest.h>
 
@@ -12,61 +12,61 @@
 namespace external_command {
 namespace {
 
-TEST(DedicatedLane, RunsAsManyJobsAtOnceAsItHasThreads) {
-  DedicatedLane lane(LaneOptions{"three", 3});
+TEST(Executor, RunsAsManyJobsAtOnceAsItHasThreads) {
+  Executor executor(ExecutorOptions{"three", 3});
   std::promise<void> last_came;
   const std::shared_future<void> all_came = last_came.get_future().share();
   std::atomic<int> came{0}, waited{0};
   for (int i = 0; i < 3; ++i) {
-    lane.post([&] {
+    executor.post([&] {
       if (++came == 3) last_came.set_value();
       waited += all_came.wait_for(std::chrono::seconds(10)) == std::future_status::ready;
     });
   }
   ASSERT_EQ(all_came.wait_for(std::chrono::seconds(10)), std::future_status::ready);
-  lane.stop();
+  executor.stop();
   EXPECT_EQ(waited, 3);
 }
 
-TEST(DedicatedLane, WaitsForARunningJobWhenItStopsAndDropsTheOthers) {
-  DedicatedLane lane;
+TEST(Executor, WaitsForARunningJobWhenItStopsAndDropsTheOthers) {
+  Executor executor;
   std::promise<void> began;
   bool has_ended = false;
   int dropped_ran = 0;
-  lane.post([&] {
+  executor.post([&] {
     began.set_value();
-    lane.post([&] { ++dropped_ran; });
+    executor.post([&] { ++dropped_ran; });
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     has_ended = true;
   });
   began.get_future().wait();
-  lane.stop();
+  executor.stop();
   EXPECT_TRUE(has_ended);
-  lane.post([&] { ++dropped_ran; });
-  lane.stop();
+  executor.post([&] { ++dropped_ran; });
+  executor.stop();
   EXPECT_EQ(dropped_ran, 0);
 }
 
-TEST(DedicatedLane, GoesOnAfterAJobThatThrows) {
-  DedicatedLane lane;
+TEST(Executor, GoesOnAfterAJobThatThrows) {
+  Executor executor;
   const std::uint64_t caught = caughtExceptions();
-  lane.post([] { throw std::runtime_error("a broken job"); });
-  lane.post([] { throw 7; });
+  executor.post([] { throw std::runtime_error("a broken job"); });
+  executor.post([] { throw 7; });
   std::promise<void> ran;
-  lane.post([&] { ran.set_value(); });
+  executor.post([&] { ran.set_value(); });
   ASSERT_EQ(ran.get_future().wait_for(std::chrono::seconds(10)), std::future_status::ready);
   EXPECT_EQ(caughtExceptions(), caught + 2);
 }
 
-TEST(DedicatedLane, TellsAJobWhatTheStampWasWhenItWasPosted) {
+TEST(Executor, TellsAJobWhatTheStampWasWhenItWasPosted) {
   std::uint64_t next = 0;
-  LaneOptions options;
+  ExecutorOptions options;
   options.stamp = [&] { return ++next; };
-  DedicatedLane lane(options);
+  Executor executor(options);
   std::promise<void> go;
   std::promise<std::uint64_t> second;
-  lane.post([&] { go.get_future().wait(); });
-  lane.post([&] { second.set_value(GuardedQueue::stampOfRunningCallback()); });
+  executor.post([&] { go.get_future().wait(); });
+  executor.post([&] { second.set_value(GuardedQueue::stampOfRunningCallback()); });
   next = 100;
   go.set_value();
   EXPECT_EQ(second.get_future().get(), 2u) << "though it ran later";

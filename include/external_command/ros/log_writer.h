@@ -33,18 +33,18 @@ class LogThrottle {
 /// Writes log lines on a thread of its own: output that nobody reads (a full pipe, a stalled disk) blocks whoever
 /// writes, and must not delay an answer, a status, or a STOP. Of more than 1,000 waiting lines the newest are dropped,
 /// and counted. Thread-safe.
-class LogLane {
+class LogWriter {
  public:
   /// The live one of this process, or a new one. Kept by who needs it to live.
-  static std::shared_ptr<LogLane> acquire();
+  static std::shared_ptr<LogWriter> acquire();
 
-  LogLane();
+  LogWriter();
 
   /// Writes what waits; gives up after a second where the output stalls.
-  ~LogLane();
+  ~LogWriter();
 
-  LogLane(const LogLane&) = delete;
-  LogLane& operator=(const LogLane&) = delete;
+  LogWriter(const LogWriter&) = delete;
+  LogWriter& operator=(const LogWriter&) = delete;
 
   void write(LogLevel level, std::string line);
 
@@ -54,7 +54,7 @@ class LogLane {
   std::thread thread_;
 };
 
-/// By the live log lane; by this thread itself where there is none.
+/// By the live log writer; by this thread itself where there is none.
 void logLater(LogLevel level, std::string line);
 
 /// The same for lines that may come often.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "external_command/ros/log_lane.h"
+#include "external_command/ros/log_writer.h"
 
 #include <ros/console.h>
 
@@ -11,12 +11,12 @@ namespace external_command {
 namespace {
 
 constexpr std::size_t kMostWaiting = 1000;     // lines
-constexpr std::chrono::seconds kLastWords(1);  // for what waits when the lane ends
+constexpr std::chrono::seconds kLastWords(1);  // for what waits when the writer ends
 
 std::mutex live_mutex;
-std::weak_ptr<LogLane>& live() {
-  static std::weak_ptr<LogLane> lane;
-  return lane;
+std::weak_ptr<LogWriter>& live() {
+  static std::weak_ptr<LogWriter> writer;
+  return writer;
 }
 
 void writeNow(LogLevel level, const std::string& line) {
@@ -50,7 +50,7 @@ bool LogThrottle::lets(std::size_t* kept_back) {
   return true;
 }
 
-struct LogLane::State {
+struct LogWriter::State {
   std::mutex mutex;
   std::condition_variable changed;
   std::deque<std::pair<LogLevel, std::string>> waiting;
@@ -77,16 +77,16 @@ struct LogLane::State {
   }
 };
 
-std::shared_ptr<LogLane> LogLane::acquire() {
+std::shared_ptr<LogWriter> LogWriter::acquire() {
   const std::lock_guard<std::mutex> lock(live_mutex);
-  auto lane = live().lock();
-  if (!lane) live() = lane = std::make_shared<LogLane>();
-  return lane;
+  auto writer = live().lock();
+  if (!writer) live() = writer = std::make_shared<LogWriter>();
+  return writer;
 }
 
-LogLane::LogLane() : state_(std::make_shared<State>()), thread_([state = state_] { state->run(); }) {}
+LogWriter::LogWriter() : state_(std::make_shared<State>()), thread_([state = state_] { state->run(); }) {}
 
-LogLane::~LogLane() {
+LogWriter::~LogWriter() {
   std::unique_lock<std::mutex> lock(state_->mutex);
   state_->is_ending = true;
   state_->changed.notify_all();
@@ -99,7 +99,7 @@ LogLane::~LogLane() {
   }
 }
 
-void LogLane::write(LogLevel level, std::string line) {
+void LogWriter::write(LogLevel level, std::string line) {
   const std::lock_guard<std::mutex> lock(state_->mutex);
   if (state_->waiting.size() >= kMostWaiting) {
     ++state_->dropped;
@@ -111,10 +111,10 @@ void LogLane::write(LogLevel level, std::string line) {
 
 void logLater(LogLevel level, std::string line) {
   std::unique_lock<std::mutex> lock(live_mutex);
-  const auto lane = live().lock();
+  const auto writer = live().lock();
   lock.unlock();
-  if (lane) {
-    lane->write(level, std::move(line));
+  if (writer) {
+    writer->write(level, std::move(line));
   } else {
     writeNow(level, line);
   }
