@@ -26,7 +26,7 @@ EC_DEBIAN_TEST_PACKAGES=(
   catkin-lint libgtest-dev librostest-dev python3-rostest
   python3-numpy python3-rosnode python3-rosparam python3-rospkg python3-rostopic
   rviz  # what demo.launch starts
-  librviz-dev qtbase5-dev  # its panel is built where they are
+  librviz-dev  # its panel is built where it is, and with it ec_qt_package
 )
 
 # Names of Ubuntu 20.04 with Noetic from packages.ros.org.
@@ -46,7 +46,7 @@ EC_NOETIC_RUN_PACKAGES=(
 EC_NOETIC_TEST_PACKAGES=(
   libgtest-dev python3-catkin-lint python3-numpy python3-rospkg
   ros-noetic-rosnode ros-noetic-rosparam ros-noetic-rostest ros-noetic-rostopic
-  ros-noetic-rviz qtbase5-dev
+  ros-noetic-rviz
 )
 
 # Pictures of rviz, and tests of its panel: a display for where there is none, what draws, clicks, and takes pictures.
@@ -59,6 +59,14 @@ ec_os_release() { (set +u && . /etc/os-release 2>/dev/null && printf '%s' "${!1-
 # its kin have in their archive.
 ec_is_noetic() { [ "$(ec_os_release VERSION_CODENAME)" = focal ] && [ "${EC_ROS-}" != debian ]; }
 
+# The Qt that rviz was built with.
+ec_qt_package() {
+  case $(ec_os_release VERSION_CODENAME) in
+    bullseye | bookworm | focal | jammy | noble) echo qtbase5-dev ;;
+    *) echo qt6-base-dev ;;
+  esac
+}
+
 # ec_install [PACKAGE...]: installs what is missing of the packages above, and of those named; a fraction of
 # a second where all is there.
 ec_install() {
@@ -67,7 +75,7 @@ ec_install() {
   if ec_is_noetic; then
     wanted=("${EC_NOETIC_BUILD_PACKAGES[@]}" "${EC_NOETIC_RUN_PACKAGES[@]}" "${EC_NOETIC_TEST_PACKAGES[@]}")
   fi
-  wanted+=("${EC_SCREEN_PACKAGES[@]}" "$@")
+  wanted+=("${EC_SCREEN_PACKAGES[@]}" "$(ec_qt_package)" "$@")
   local missing
   mapfile -t missing < <(ec_missing_packages "${wanted[@]}")
   [ "${#missing[@]}" -gt 0 ] || return 0
@@ -94,7 +102,10 @@ ec_apt_get() {
         "apt-get update && apt-get install --no-install-recommends $*"
     as_root=(sudo env)
   fi
-  local apt=("${as_root[@]}" LC_ALL=C DEBIAN_FRONTEND=noninteractive apt-get -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=300)
+  # apt's status has a descriptor of its own, made here, since sudo closes all others: apt 3 hands that of its status
+  # to no child, and packages whose scripts print would fail where it is stdout.
+  local apt=("${as_root[@]}" LC_ALL=C DEBIAN_FRONTEND=noninteractive
+    sh -c 'exec "$@" 3>&1' sh apt-get -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=300)
   local attempt
   for attempt in 1 2 3; do
     if "${apt[@]}" --quiet=2 update && ec_tell_size "${apt[@]}" -- "$@" &&
@@ -110,9 +121,8 @@ ec_apt_install() {
   local apt=()
   while [ "$1" != -- ]; do apt+=("$1") && shift; done
   shift
-  # apt tells its status on stdout: sudo closes other files.
   (set -o pipefail &&
-    "${apt[@]}" --yes --quiet=2 -o APT::Status-Fd=1 install --no-install-recommends "$@" |
+    "${apt[@]}" --yes --quiet=2 -o APT::Status-Fd=3 install --no-install-recommends "$@" |
     ec_count 's/^dlstatus:[^:]*:([0-9]+).*/fetching \1/p; s/^pmstatus:[^:]*:([0-9]+).*/installing \1/p')
 }
 

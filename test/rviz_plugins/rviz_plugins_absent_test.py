@@ -6,7 +6,8 @@ import unittest
 
 class RvizPluginsTest(unittest.TestCase):
     def test_the_panel(self):
-        self.skipTest("the headers of rviz or of Qt 5 are not installed (librviz-dev, qtbase5-dev), or EC_RVIZ_PLUGINS=OFF")
+        self.skipTest("the headers of rviz or of its Qt are not installed (librviz-dev; qtbase5-dev, from Debian 13 on "
+                      "qt6-base-dev), or EC_RVIZ_PLUGINS=OFF")
 
 
 if __name__ == "__main__":
