@@ -117,6 +117,27 @@ CoverageResult plannedWithLaps(const CoverageArea& area, const Pose2d& start, co
   return CoveragePlanner(sweeper(), wished).plan(area, start, progress, {});
 }
 
+TEST(CoveragePlanner, LeavesAStartNearerToTheBorderThanTheMarginAndSaysSo) {
+  const CoverageArea area{box(0, 0, 40, 30), {}};
+  CoverageParams wished = params();
+  wished.margin = 0.1;
+  const Pose2d close{5.0, 0.65 + 0.04, 0.0};  // 4 cm from the border
+  const CoverageResult result = CoveragePlanner(sweeper(), wished).plan(area, close, {}, {});
+  EXPECT_GT(result.coverage_ratio, 0.95);
+  EXPECT_TRUE(isDrivable(result.path, area));
+  ASSERT_FALSE(result.warnings.empty());
+  EXPECT_NE(result.warnings.front().find("nearer to a border or an obstacle than the margin of 0.10 m"),
+            std::string::npos)
+      << result.warnings.front();
+}
+
+TEST(CoveragePlanner, SaysNothingOfAStartThatKeepsTheMargin) {
+  CoverageParams wished = params();
+  wished.margin = 0.1;
+  const Pose2d away{5.0, 0.65 + 0.12, 0.0};
+  EXPECT_TRUE(CoveragePlanner(sweeper(), wished).plan({box(0, 0, 40, 30), {}}, away, {}, {}).warnings.empty());
+}
+
 TEST(CoveragePlanner, TellsLapsFromSwaths) {
   const CoverageResult result = plannedWithLaps({box(0, 0, 40, 30), {}}, kStart);
   EXPECT_TRUE(result.lines.front().isLap());

@@ -9,7 +9,7 @@ namespace external_command {
 /// What the order of the swaths is chosen for.
 enum class CoverageObjective {
   kShortest,     ///< least distance driven
-  kFewestTurns,  ///< least turns, then least gear changes, then least distance
+  kFewestTurns,  ///< the same, but laps and directions of swaths are chosen as if a turn were five times as long
 };
 
 /// How an area is swept.
@@ -26,10 +26,10 @@ struct CoverageParams {
   double target_coverage = 0.993;  ///< of the reachable area; beyond it, only what costs little is swept, [0.5, 1]
   double max_gap = 4.0;  ///< a connected piece that could be swept and is larger than so many squares of swath_width is
                          ///< swept too, where a way leads there, for at most 2 % more length; 0: none, [0, 1e6]
-  double gear_change_cost = 4.0;       ///< price of a gear change: what the vehicle would drive in the time that it
-                                       ///< takes to stop and to change, not negative [m]
-  bool reverse_to_turn = true;         ///< false: what no way forward leads to is left out
-  double spacing = 1.0;                ///< between points of the path, at most, [0.05, 100] [m]
+  double gear_change_cost = 4.0;  ///< price of a gear change: what the vehicle would drive in the time that it
+                                  ///< takes to stop and to change, not negative [m]
+  bool reverse_to_turn = true;    ///< false: what only reversing leads to is left out, but for laps that are wished
+  double spacing = 1.0;           ///< between points of the path, at most, [0.05, 100] [m]
   std::size_t max_grid_rows = 100000;  ///< of blocked cells side by side in the obstacle grid, [1, 10000000]
   double time_budget = 3.0;  ///< past 0.4 of it no further variant is tried, past all of it the plan is given up,
                              ///< (0, 3600] [s]

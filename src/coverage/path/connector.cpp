@@ -57,6 +57,7 @@ std::vector<SteeringCurve> turnsWithoutObstacles(const Pose2d& from, const Pose2
 }
 
 std::optional<Curve> Connector::connect(const Curve* driven, const Pose2d& from, const Curve& next) const {
+  if (driven == nullptr && !field_.isFree(from)) return leave(from, next.start);
   if (auto curve = turn(from, next.start)) return curve;
   for (const double share : kBacked) {
     if (driven != nullptr) {
@@ -128,9 +129,18 @@ std::optional<Curve> Connector::shiftedTurn(const Pose2d& from, const Pose2d& to
   return std::nullopt;
 }
 
-/// Nearby first: most ways lead no farther, and to prepare for the whole area takes longer than to search.
+std::optional<Curve> Connector::leave(const Pose2d& from, const Pose2d& to) const {
+  field_.poll();
+  return field_.isFree(to) ? searchNearAndFar(from, to) : std::nullopt;
+}
+
 std::optional<Curve> Connector::search(const Pose2d& from, const Pose2d& to) const {
-  if (!field_.isFree(from) || !field_.isFree(to)) return std::nullopt;  // the planner would shrink the margin there
+  if (!field_.isFree(from) || !field_.isFree(to)) return std::nullopt;  // the planner would ease the margin there
+  return searchNearAndFar(from, to);
+}
+
+/// Nearby first: most ways lead no farther, and to prepare for the whole area takes longer than to search.
+std::optional<Curve> Connector::searchNearAndFar(const Pose2d& from, const Pose2d& to) const {
   const double room = kRoom * field_.radius();
   const Point2d low = from.position().cwiseMin(to.position()) - Point2d(room, room);
   const Point2d high = from.position().cwiseMax(to.position()) + Point2d(room, room);

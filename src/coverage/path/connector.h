@@ -23,14 +23,18 @@ class Connector {
   /// A short way from `from` to the start of `next`; nullopt if none was found. Where there is no turn, part of
   /// `driven` is backed along first, the way that led to `from`, or part of `next` last: out of a dead end, or into
   /// one.
-  /// @param driven  nullptr: what led there is not known.
+  /// @param driven  nullptr: what led there is not known. `from` may then be nearer to something than the margin, and
+  /// is
+  ///                left with a smaller one nearby.
   std::optional<Curve> connect(const Curve* driven, const Pose2d& from, const Curve& next) const;
 
  private:
   std::optional<Curve> turn(const Pose2d& from, const Pose2d& to) const;
   std::optional<Curve> shortTurn(const Pose2d& from, const Pose2d& to) const;
   std::optional<Curve> shiftedTurn(const Pose2d& from, const Pose2d& to) const;
+  std::optional<Curve> leave(const Pose2d& from, const Pose2d& to) const;
   std::optional<Curve> search(const Pose2d& from, const Pose2d& to) const;
+  std::optional<Curve> searchNearAndFar(const Pose2d& from, const Pose2d& to) const;
   std::optional<Curve> searchWithin(const std::optional<BoundingBox>& box, const Pose2d& from, const Pose2d& to) const;
 
   const Field& field_;
