@@ -164,7 +164,7 @@ int run(const CommandLine& line) {
   const Options options = parse(line);
   options.params.validate();
   makeFolders({options.cases, options.paths, options.drawings});
-  setPlannerLog({});
+  const auto silence = PlannerLog::acquire({});
   Summary summary;
   for (const std::string& file : parkingCaseFiles(options.inputs)) {
     runCase(readParkingCase(file), bestKnownCosts(file), options, &summary);

@@ -34,7 +34,6 @@ void FreeSpaceParams::validate() const {
   requireParameter("gear_change_cost", gear_change_cost, 0.0, 1000.0);
   requireParameter("reverse_factor", reverse_factor, 1.0, 100.0);
   requireParameter("spacing", spacing, 0.01, 1.0);
-  requireParameter("straight_last", straight_last, 0.0, 20.0);
   requireParameter("manoeuvre_speed", manoeuvre_speed, 0.01, 5.0);
 }
 

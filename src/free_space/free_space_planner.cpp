@@ -22,19 +22,17 @@ namespace {
 constexpr double kRampsMayTake = 1e-3;       ///< of the margin [m]
 constexpr double kMaxDistance = 10'000.0;    ///< between start and goals [m]
 constexpr std::size_t kFirstPatience = 150;  ///< trials that make a first path out of what the search found
-constexpr std::size_t kFirstRound = 4000;    ///< search steps for each approach while there are several
 constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
 
-/// One way to end at a goal: drive to `query.goal`, then along `tail`.
+/// A goal that is free.
 struct Approach {
   std::size_t goal_index;
   Query query;
-  Arcs tail;
 };
 
 struct Solution {
   const Approach* approach = nullptr;
-  Arcs arcs;  ///< without the tail
+  Arcs arcs;
   double cost = std::numeric_limits<double>::infinity();
 };
 
@@ -136,28 +134,9 @@ class Planning {
         blocked += (blocked.empty() ? "" : "; ") + described(nameOf(i, goals), goals[i], *collision);
         continue;
       }
-      if (params_.straight_last <= 0.0) {
-        approaches_.push_back({i, {start_, goal, 0}, {}});
-        continue;
-      }
-      if (addStraightApproaches(i, goal)) continue;
-      blocked +=
-          text(blocked.empty() ? "" : "; ", nameOf(i, goals), " ", at(goals[i]), " has no free straight stretch of ",
-               metres(params_.straight_last), " behind or ahead of it to end with (straight_last)");
+      approaches_.push_back({i, {start_, goal, 0}});
     }
     if (approaches_.empty()) throw GoalBlocked(blocked);
-  }
-
-  /// False if the last stretch is blocked in both gears.
-  bool addStraightApproaches(std::size_t goal_index, const Pose2d& goal) {
-    const std::size_t before = approaches_.size();
-    for (const int gear : {1, -1}) {
-      const ArcSegment tail{gear * params_.straight_last, 0.0};
-      const ArcSegment back{-tail.length, 0.0};
-      if (!index_.keepsMargin(goal, back)) continue;
-      approaches_.push_back({goal_index, {start_, advance(goal, back), gear}, {tail}});
-    }
-    return approaches_.size() > before;
   }
 
   /// What the search covers: all obstacles and room to turn around them.
@@ -174,11 +153,11 @@ class Planning {
     return box;
   }
 
-  /// The cheapest of the approaches' first paths. With several of them, none may use up the time alone: each is tried
-  /// with few steps first, then with more.
+  /// The cheapest of the approaches' first paths. With several of them, none may use up the time alone: the own search
+  /// tries each with few steps first, then with more. OMPL's planners count none.
   Solution firstSolution() {
     Solution best;
-    std::size_t steps = approaches_.size() > 1 ? kFirstRound : params_.max_iterations;
+    std::size_t steps = approaches_.size() > 1 ? kFirstLookSteps : params_.max_iterations;
     while (true) {
       bool all_hopeless = true;
       for (const Approach& approach : approaches_) {
@@ -196,7 +175,7 @@ class Planning {
       }
       if (steps >= params_.max_iterations) {
         throw NoPath(
-            whyNone(text("none was found in ", params_.max_iterations, " steps; allow more (max_iterations)")));
+            whyNone(text("none was found in at most ", params_.max_iterations, " steps; allow more (max_iterations)")));
       }
       steps = std::min<std::size_t>(4 * steps, params_.max_iterations);
     }
@@ -209,12 +188,12 @@ class Planning {
     const auto stop = [this] { return stop_.isReached(); };
     // the search alone is for callers that only want to know whether there is a way
     if (params_.planner != "portfolio" || !isTooNarrow(index_, areaOf(query), start, goal, stop)) {
-      return "there is none, searched in steps of a centimetre or two";
+      return "the finest search found none";
     }
     const auto passage = narrowestPassage(index_, areaOf(query), start, goal, stop);
     if (!passage) return "obstacles close every way, or leave less room than the vehicle needs";
     return text("the widest way is only ", metres(passage->width), " wide at ", at(Point2d(passage->at + origin_)),
-                "; the vehicle needs ", metres(2.0 * index_.axleDisc()), ", twice the margin included");
+                "; the vehicle needs ", metres(vehicle_.width + 2.0 * params_.margin), ", twice the margin included");
   }
 
   std::string whyNone(const std::string& why) const {
@@ -224,9 +203,8 @@ class Planning {
   }
 
   std::string theGoals() const {
-    const auto sameGoal = [&](const Approach& other) { return other.goal_index == approaches_[0].goal_index; };
-    if (!std::all_of(approaches_.begin(), approaches_.end(), sameGoal)) return "any of the free goals";
-    Pose2d goal = goalOf(approaches_[0]);
+    if (approaches_.size() > 1) return "any of the free goals";
+    const Pose2d& goal = approaches_[0].query.goal;
     return text("the goal ", at(Pose2d{goal.x + origin_.x(), goal.y + origin_.y(), goal.heading}));
   }
 
@@ -264,15 +242,11 @@ class Planning {
   /// The solution as a path in the local frame, checked.
   /// @throws NoPath  it fails the last check.
   FreeSpacePlan finish(const Solution& solution) const {
-    Arcs arcs = solution.arcs;
-    const Arcs& tail = solution.approach->tail;
-    arcs.insert(arcs.end(), tail.begin(), tail.end());
-    arcs = merged(arcs);
+    Arcs arcs = merged(solution.arcs);
     if (params_.continuous_curvature) arcs = withRamps(arcs);
     FreeSpacePlan result;
     result.path = sampleArcs(start_, arcs, params_.spacing);
-    const Pose2d goal = goalOf(*solution.approach);
-    const PathDemands demands{start_, goal, vehicle_.maxKappa(), params_.spacing};
+    const PathDemands demands{start_, solution.approach->query.goal, vehicle_.maxKappa(), params_.spacing};
     const LastCheck check = checkPath(result.path, demands, index_);
     if (check.fault) throw NoPath(text("the path found failed its last check: ", *check.fault));
     result.goal_index = solution.approach->goal_index;
@@ -293,8 +267,6 @@ class Planning {
     };
     return withSteeringRamps(start_, arcs, vehicle_, params_.manoeuvre_speed, keepsClear);
   }
-
-  Pose2d goalOf(const Approach& approach) const { return endOf(approach.query.goal, approach.tail); }
 
   /// Takes the better solution, unless it fails the last check: then the first path stays.
   void replace(FreeSpacePlan* result, const Solution& better) const {

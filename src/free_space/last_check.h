@@ -25,7 +25,7 @@ struct LastCheck {
 };
 
 /// Looks at the points of a path (local frame) as a follower would drive them, one arc from each to the next, and
-/// measures its distance to all obstacles; shares nothing with the search but the obstacles' edges.
+/// measures its distance to all obstacles, edge by edge. Neither the search nor the cells of `index` are asked.
 LastCheck checkPath(const Path& path, const PathDemands& demands, const FootprintIndex& index);
 
 }  // namespace external_command

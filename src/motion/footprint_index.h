@@ -61,8 +61,7 @@ struct EasedMargin {
 class FootprintIndex {
  public:
   /// @param eased_at    poses (local frame) that have to be taken. Those obstacles that one of them is nearer to than
-  /// the
-  ///                    margin, without meeting them, may be approached to half of that distance nearby.
+  ///                    the margin, without meeting them, may be approached to half of that distance nearby.
   /// @param checkpoint  called now and then while the index is made: a large region takes a second.
   /// @throws InvalidRequest  the region has more edges than RegionLimits allow.
   FootprintIndex(const VehicleParams& vehicle, double margin, const Region& region, const Point2d& origin,

@@ -11,6 +11,7 @@
 #include "external_command/core/text.h"
 #include "external_command/motion/collision_checker.h"
 #include "external_command/ros/bounded_subscription.h"
+#include "external_command/ros/log_writer.h"
 
 namespace external_command {
 
@@ -50,6 +51,12 @@ unsigned readCount(const ParameterReader& reader, const std::string& key, int lo
   return static_cast<unsigned>(value);
 }
 
+/// What OMPL tells of each plan is left out.
+void logPlanner(PlannerLogLevel level, const std::string& message) {
+  if (level < PlannerLogLevel::kWarning) return;
+  logLater(level == PlannerLogLevel::kError ? LogLevel::kError : LogLevel::kWarn, "OMPL: " + message);
+}
+
 }  // namespace
 
 FreeSpaceParams readFreeSpaceParams(const ParameterReader& reader) {
@@ -83,7 +90,8 @@ ManoeuvrePlanner::ManoeuvrePlanner(ros::NodeHandle nh, const ParameterReader& re
     : context_(context),
       params_(readFreeSpaceParams(reader.within("free_space"))),
       region_limits_(readRegionLimits(reader.within("free_space"))),
-      latest_grid_(std::make_shared<LatestGrid>()) {
+      latest_grid_(std::make_shared<LatestGrid>()),
+      planner_log_(PlannerLog::acquire(logPlanner)) {
   reader.readName("obstacle_grid_name", &grid_params_.topic);
   reader.readWithin("max_grid_age", 0.0, 86400.0, &grid_params_.max_age);
   reader.read("grid_unknown_is_blocked", &grid_params_.unknown_is_blocked);

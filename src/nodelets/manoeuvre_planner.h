@@ -10,6 +10,7 @@
 
 #include "external_command/core/deadline.h"
 #include "external_command/free_space/free_space_planner.h"
+#include "external_command/free_space/planner_log.h"
 #include "external_command/ros/motion_command_processor.h"
 
 namespace external_command {
@@ -54,7 +55,7 @@ class ManoeuvrePlanner {
   /// is shown in rviz together with `scene`.
   /// @throws  as FreeSpacePlanner::plan()
   FreeSpacePlan plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region,
-                       const Deadline& deadline, const CancelToken& cancel, const CommandScene& scene) const;
+                     const Deadline& deadline, const CancelToken& cancel, const CommandScene& scene) const;
 
   /// Shows in rviz what stands in the way of `poses`, together with `scene`.
   /// @throws Cancelled
@@ -77,6 +78,7 @@ class ManoeuvrePlanner {
   ObstacleGridParams grid_params_;
   std::shared_ptr<LatestGrid> latest_grid_;
   ros::Subscriber grid_subscriber_;
+  const std::shared_ptr<PlannerLog> planner_log_;
 };
 
 /// @throws InvalidParameter

@@ -177,18 +177,6 @@ TEST(FreeSpacePlanner, IgnoresABlockedGoalIfThereIsAnother) {
   EXPECT_EQ(planner.plan(world.start, {blocked, world.goal}, world.region, {}).goal_index, 1U);
 }
 
-TEST(FreeSpacePlanner, EndsWithAStraightStretchWhereAsked) {
-  const ParkingWorld world = bay(1.0);
-  FreeSpaceParams params = quickParams();
-  params.straight_last = 2.0;
-  const FreeSpacePlan result = planned(world, params);
-  EXPECT_TRUE(isValid(result, world, params));
-  for (const ReferencePoint& point : result.path) {
-    const bool is_last_stretch = result.length - point.s < 1.99;
-    EXPECT_NEAR(is_last_stretch ? angleBetween(point.heading, world.goal.heading) : 0.0, 0.0, 1e-6);
-  }
-}
-
 TEST(FreeSpacePlanner, StaysWhereItIsIfThatIsTheGoal) {
   const FreeSpacePlan result = FreeSpacePlanner(smallCar(), quickParams()).plan({1, 2, 3}, {{1, 2, 3}}, Region(), {});
   EXPECT_EQ(result.length, 0.0);
@@ -299,14 +287,6 @@ TEST(FreeSpacePlanner, NumbersTheGoalsOnlyWhereThereAreSeveral) {
   EXPECT_EQ(messageOf<InvalidRequest>([&] { ask({{1e6, 0, 0}}); }).find("the goal (1000000.00, 0.00, 0.000) is"), 0U);
 }
 
-TEST(FreeSpacePlanner, SaysWhenNoStraightStretchLeadsToTheGoal) {
-  ParkingWorld world = twoYards(1.0);
-  FreeSpaceParams params = quickParams();
-  params.straight_last = 20.0;
-  const std::string message = messageOf<GoalBlocked>([&] { planned(world, params); });
-  EXPECT_NE(message.find("no free straight stretch of 20.00 m"), std::string::npos) << message;
-}
-
 TEST(FreeSpacePlanner, SaysSoonThatNothingLeadsOutOfARoom) {
   Region::Parts parts;
   for (const double x : {14.0, 38.0}) parts.non_drivable.push_back(box({x, 0.0}, 0.5, 20.0));
@@ -350,7 +330,7 @@ TEST(FreeSpacePlanner, SeesObstaclesOfATurnedGrid) {
 
 TEST(FreeSpacePlanner, RunsThePlannersOfOmplInTheSameFrame) {
   std::string messages;
-  setPlannerLog([&](PlannerLogLevel, const std::string& message) { messages += message; });
+  const auto log = PlannerLog::acquire([&](PlannerLogLevel, const std::string& message) { messages += message; });
   const ParkingWorld world = bay(4.0);
   ParkingWorld open = world;  // where any sampling planner finds a path soon
   open.region = Region();
@@ -365,7 +345,21 @@ TEST(FreeSpacePlanner, RunsThePlannersOfOmplInTheSameFrame) {
     EXPECT_EQ(result.planner, name);
   }
   EXPECT_FALSE(messages.empty());
-  setPlannerLog({});
+}
+
+TEST(PlannerLog, IsOneForTheProcessWhileItLives) {
+  std::string first, second;
+  auto log = PlannerLog::acquire([&](PlannerLogLevel, const std::string& message) { first += message; });
+  EXPECT_EQ(PlannerLog::acquire([&](PlannerLogLevel, const std::string& message) { second += message; }), log);
+  const ParkingWorld world = bay(4.0);
+  FreeSpaceParams params = quickParams();
+  params.planner = "rrtconnect";
+  planned(world, params);
+  EXPECT_FALSE(first.empty());
+  log = nullptr;
+  log = PlannerLog::acquire([&](PlannerLogLevel, const std::string& message) { second += message; });
+  planned(world, params);
+  EXPECT_FALSE(second.empty());
 }
 
 TEST(FreeSpaceParams, NameTheKeyThatIsOutOfRange) {

@@ -14,15 +14,16 @@ struct FreeSpaceParams {
                                         ///< the start or the goal is nearer, [0, 5] [m]
   double time_budget = 1.0;             ///< the answer comes within this time, improvement included, (0, 3600] [s]
   double improve_budget = 0.2;          ///< of it, spent at most on improving the first path, not negative [s]
-  unsigned max_iterations = 1000000;    ///< of the search for the first path; bounds the memory too, [1, 10000000]
+  unsigned max_iterations = 1000000;    ///< of the own search for the first path, but for the legs of a long way, which
+                                        ///< are bounded by themselves; bounds the memory too, [1, 10000000]
   unsigned improve_iterations = 10000;  ///< of the improvement; 0: until improve_budget is spent
-  unsigned seed = 1;                    ///< same request, same seed, budgets not reached by the clock: same path
+  unsigned seed = 1;                    ///< same request, same seed, budgets not reached by the clock: same path,
+                                        ///< but for OMPL's planners, which take the first seed of a process
   unsigned threads = 1;                 ///< that improve the path side by side, [1, 64]
 
   double gear_change_cost = 3.0;  ///< price of a gear change, as length, not negative [m]
   double reverse_factor = 2.0;    ///< price of a metre in reverse, as length forward, [1, 100]
   double spacing = 0.05;          ///< between points of the result, at most, [0.01, 1] [m]
-  double straight_last = 0.0;     ///< the path ends with a straight stretch at least this long, [0, 20] [m]
 
   /// Between gear changes the curvature changes gradually, and the points' speed limits let the steering keep up. Where
   /// there is no room for ramps as long as manoeuvre_speed asks for, they are shorter and the limits lower.

@@ -25,7 +25,7 @@ struct FreeSpacePlan {
   double first_path_cost = 0.0;    ///< its cost [m]
   double first_path_length = 0.0;  ///< driven, in both gears [m]
   unsigned first_path_gear_changes = 0;
-  std::string planner;                ///< what found the path
+  std::string planner;                ///< FreeSpaceParams::planner
   std::size_t goal_index = 0;         ///< which of the goals it reaches
   std::vector<std::string> warnings;  ///< the start or that goal is nearer to an obstacle than the margin
 };
@@ -39,8 +39,8 @@ class FreeSpacePlanner {
   /// The cheapest path found that begins at `start` and ends at one of `goals` (nose in or backing in, for example),
   /// within 1 mm and 0.01 degrees; checked once more, finely and exactly, before it is returned. Its points are at most
   /// `spacing` apart, and between two neighbours curvature and gear are constant up to the rounding of the spacing.
-  /// @throws InvalidRequest   a pose is not finite, there is no goal, or start and goals lie over 10 km apart.
   /// A start or goal that is nearer to an obstacle than the margin is left or reached with a smaller margin nearby.
+  /// @throws InvalidRequest   a pose is not finite, there is no goal, or start and goals lie over 10 km apart.
   /// @throws StartBlocked     the bare footprint collides at the start; the text says with what and by how much.
   /// @throws GoalBlocked      it does at every goal.
   /// @throws NoPath           the search has shown that there is none at its finest resolution, or used its iterations.

@@ -11,6 +11,7 @@
 #include <ompl/geometric/planners/rrt/RRTstar.h>
 #include <ompl/util/RandomNumbers.h>
 
+#include <algorithm>
 #include <limits>
 #include <mutex>
 

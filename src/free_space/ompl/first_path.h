@@ -11,6 +11,9 @@
 
 namespace external_command {
 
+/// Steps that find the first path nearly always. With more allowed, the own planner goes on by other means.
+constexpr std::size_t kFirstLookSteps = 4000;
+
 /// How to look for a first path, and for how long.
 struct FirstPathRequest {
   std::string planner;  ///< see FreeSpaceParams

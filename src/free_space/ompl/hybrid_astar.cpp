@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "first_path.h"
 #include "free_space/search/narrow_passage.h"
 #include "free_space/search/way_pose_search.h"
 #include "ompl_space.h"
@@ -15,8 +16,7 @@ namespace ob = ompl::base;
 
 namespace {
 
-constexpr std::size_t kDirectSteps = 4000;  ///< before way poses are tried
-constexpr double kLongWay = 8.0;            ///< from which they are, in turning radii
+constexpr double kLongWay = 8.0;  ///< from which way poses are tried, in turning radii
 
 }  // namespace
 
@@ -48,8 +48,8 @@ std::optional<Arcs> HybridAStar::search(const std::function<bool()>& stop) {
     outcome_ = search_.run({}, {steps, std::numeric_limits<double>::infinity(), stop});
     return outcome_ == TwoWaySearch::Outcome::kFound;
   };
-  if (runFor(std::min(kDirectSteps, max_steps_))) return search_.arcs();
-  if (outcome_ != TwoWaySearch::Outcome::kOutOfSteps || max_steps_ <= kDirectSteps) return std::nullopt;
+  if (runFor(std::min(kFirstLookSteps, max_steps_))) return search_.arcs();
+  if (outcome_ != TwoWaySearch::Outcome::kOutOfSteps || max_steps_ <= kFirstLookSteps) return std::nullopt;
   if (isTooNarrow(scene_.index, area_, query_.start.position(), query_.goal.position(), stop)) {
     outcome_ = TwoWaySearch::Outcome::kNone;
     return std::nullopt;

@@ -46,6 +46,7 @@ class CurveIsFree : public ob::MotionValidator {
     Pose2d pose = poseOf(from);
     const SteeringWord word = shortestWord(pose, poseOf(to));
     double driven = 0.0;
+    const Pose2d begin = pose;
     for (int i = 0; i < word.size; ++i) {
       const ArcSegment& arc = word.arcs[static_cast<std::size_t>(i)];
       const double free = scene_.index.freeLength(pose, arc, kCheckStep);
@@ -56,7 +57,7 @@ class CurveIsFree : public ob::MotionValidator {
       last_valid.second = driven / word.length;
       return false;
     }
-    return true;
+    return keepsMargin(scene_.index, begin, word);
   }
 
  private:
