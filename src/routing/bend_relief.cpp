@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "path_shape.h"
 #include "smoothing.h"
 
 namespace external_command {
@@ -17,7 +18,6 @@ constexpr std::size_t kRamp = 8;        // points over which the smoother line t
 constexpr double kMerging = 0.05;       // off the course, where the path has yet to get onto it [m]
 constexpr double kMergingRoom = 0.5;    // beyond its limits that it may take there [m]
 constexpr double kNearLimit = 0.97;     // share of the vehicle's curvature that is aimed at
-constexpr double kCrawl = 2.0;          // at which the wheels can be turned as fast as the path asks [m/s]
 constexpr double kNoticeable = 0.3;     // by which the front swings out before it is looked at [m]
 constexpr double kFrontMayLeave = 0.1;  // the lane, before anything is done about it [m]
 
@@ -79,13 +79,10 @@ class Resampler {
 
 }  // namespace
 
-/// Of the curvature, at a crawl [1/m^2].
-double BendRelief::fastestChange() const { return vehicle_.max_steering_rate / (kCrawl * vehicle_.wheelbase); }
-
 bool BendRelief::isHard(std::size_t place, double kappa, double next_kappa) const {
   const double limit = kNearLimit * vehicle_.maxKappa();
   if (std::abs(kappa) > limit) return true;
-  if (std::abs(next_kappa - kappa) > fastestChange() * step_) return true;
+  if (std::abs(next_kappa - kappa) > fastestChangeOfKappa(vehicle_) * step_) return true;
   const double front = vehicle_.wheelbase + vehicle_.front_overhang;
   if (0.5 * std::abs(kappa) * front * front < kNoticeable) return false;
   return corridor_.frontExcess(course_[place], kappa) > kFrontMayLeave;
@@ -156,7 +153,7 @@ std::vector<Point2d> BendRelief::fitted(const CourseLayout& layout, const Window
     const bool is_end = index == layout.first || index == layout.last;
     fit[i].fixed = is_end || (is_before && window.keeps_begin) || (is_beyond && window.keeps_end);
   }
-  PathFit path(std::move(fit), {step_, kNearLimit * vehicle_.maxKappa(), kNearLimit * fastestChange(),
+  PathFit path(std::move(fit), {step_, kNearLimit * vehicle_.maxKappa(), kNearLimit * fastestChangeOfKappa(vehicle_),
                                 vehicle_.wheelbase + vehicle_.front_overhang, vehicle_.rear_overhang});
   path.run(cancel);
   return path.points();

@@ -34,7 +34,6 @@ class BendRelief {
     bool keeps_begin, keeps_end;  ///< with the headings there
   };
 
-  double fastestChange() const;
   std::vector<Window> windowsOf(const CourseLayout& layout) const;
   bool isHard(std::size_t place, double kappa, double next_kappa) const;
   std::vector<Point2d> baseOf(const CourseLayout& layout, const Window& window) const;

@@ -4,19 +4,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "path_shape.h"
+
 namespace external_command {
 
 namespace {
 
 constexpr double kTiny = 1e-6;               // [m]
-constexpr double kQuinticPeak = 5.7735;      // largest second derivative of the quintic below: 10 / sqrt(3)
 constexpr std::size_t kPollInterval = 4096;  // samples between two looks at the cancel token
 constexpr double kFullLock = 0.9;            // share of the vehicle's curvature that a smooth change may take
 
-/// From 0 to 1 with neither slope nor curvature at the ends.
-double quintic(double t) { return t * t * t * (10.0 + t * (-15.0 + t * 6.0)); }
-
-/// The same way on two circular arcs, for a change of `length` over `offset` [m].
+/// The way from 0 to 1 on two circular arcs, for a change of `length` over `offset` [m].
 double twoArcs(double t, double length, double offset) {
   const double radius = (length * length + offset * offset) / (4.0 * offset);
   const double x = length * std::min(t, 1.0 - t);

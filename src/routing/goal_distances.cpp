@@ -9,7 +9,6 @@ namespace external_command {
 namespace {
 
 constexpr std::int32_t kUnreachable = RelaxedGraph::kUnreachable;
-constexpr double kMaxPrice = 10000.0;  // so that sums stay in range; a bound may always be lower [m]
 
 }  // namespace
 
@@ -62,7 +61,7 @@ void GoalDistances::climb(const LanePoint& target) {
     work_.distances[rank] = kUnreachable;
     work_.leg_known[rank] = work_.leg;
   }
-  const double metres = std::min(target.price, kMaxPrice) - countedRest(target.lane, target.s);
+  const double metres = std::min(target.price, RelaxedGraph::kMaxWeight) - countedRest(target.lane, target.s);
   std::int32_t& distance = work_.distances[first];
   distance = std::min(distance, static_cast<std::int32_t>(std::floor(metres * RelaxedGraph::kUnitsPerMetre)));
   for (const std::uint32_t rank : pathUp(first, [](std::uint32_t) { return false; })) {

@@ -6,6 +6,7 @@
 
 #include "corridor.h"
 #include "line_mending.h"
+#include "path_shape.h"
 #include "smoothing.h"
 
 namespace external_command {
@@ -13,8 +14,6 @@ namespace external_command {
 namespace {
 
 constexpr double kShare = 0.5;          // of what the vehicle can do that a calm place may ask for
-constexpr double kCrawl = 2.0;          // at which the wheels can be turned as fast as the path asks [m/s]
-constexpr double kSmoothing = 1.2;      // [m]
 constexpr double kApart = 25.0;         // [m]
 constexpr double kInnerSpacing = 0.05;  // beside a boundary that is kept, at least [m]
 
@@ -26,7 +25,7 @@ class CalmStretches {
     const auto count = static_cast<std::size_t>(std::max(2.0, std::ceil(center.length() / making.params.spacing)));
     step_ = center.length() / static_cast<double>(count);
     for (std::size_t i = 0; i <= count; ++i) points_.push_back(center.pointAt(step_ * static_cast<double>(i)));
-    smooth(kSmoothing / step_, kNone, kNone, &points_);
+    smooth(kSmoothingLength / step_, kNone, kNone, &points_);
     markFolds(center);
   }
 
@@ -72,7 +71,7 @@ class CalmStretches {
     const VehicleParams& vehicle = making_.vehicle;
     const double kappa = kappaAt(i), change = std::abs(kappaAt(i + 1) - kappa) / step_;
     if (std::abs(kappa) > kShare * vehicle.maxKappa()) return false;
-    if (change > kShare * vehicle.max_steering_rate / (kCrawl * vehicle.wheelbase)) return false;
+    if (change > kShare * fastestChangeOfKappa(vehicle)) return false;
     const LanePoint place{lane_, step_ * static_cast<double>(i)};
     const CoursePoint here{points_[i], 0.0, place, place};
     const double front = vehicle.wheelbase + vehicle.front_overhang;

@@ -23,10 +23,10 @@ LaneGraph::LaneGraph(const HdMap& map, const RouterParams& params) {
     }
     for (const LaneIndex other : lane.left_forward) {
       addNeighbour(map, i, other, LaneChange::kLeft, params.min_turning_radius);
-    };
+    }
     for (const LaneIndex other : lane.right_forward) {
       addNeighbour(map, i, other, LaneChange::kRight, params.min_turning_radius);
-    };
+    }
   }
   first_successor_.push_back(static_cast<std::uint32_t>(successors_.size()));
   first_neighbour_.push_back(static_cast<std::uint32_t>(neighbours_.size()));

@@ -15,9 +15,6 @@ namespace external_command {
 
 namespace {
 
-/// Kinks of the centre lines are rounded, and noise is taken out, over about this length. The path then stays within
-/// 4 cm of a line that is sampled at 0.1 rad per point.
-constexpr double kSmoothingLength = 1.2;   // [m]
 constexpr double kPoint = 1e-3;            // [m]; shorter is one point; also of a spacing
 constexpr double kLead = 5.0;              // beyond the ends of the route [m]
 constexpr double kMaxLead = 400.0;         // samples beyond the ends

@@ -9,12 +9,12 @@ namespace external_command {
 
 namespace {
 
-constexpr double kLost = 0.01;          // by which a change that runs over several lanes may be counted short [m]
-constexpr double kMaxWeight = 10000.0;  // so that sums stay in range; a bound may always be lower [m]
-constexpr int kMaxRounds = 64;          // until lanes whose rates lower each other's without end count nothing
+constexpr double kLost = 0.01;  // by which a change that runs over several lanes may be counted short [m]
+constexpr int kMaxRounds = 64;  // until lanes whose rates lower each other's without end count nothing
 
 std::int32_t unitsOf(double metres) {
-  return static_cast<std::int32_t>(std::floor(std::clamp(metres, 0.0, kMaxWeight) * RelaxedGraph::kUnitsPerMetre));
+  return static_cast<std::int32_t>(
+      std::floor(std::clamp(metres, 0.0, RelaxedGraph::kMaxWeight) * RelaxedGraph::kUnitsPerMetre));
 }
 
 /// The metres left on the two lanes of a pair, where it begins and where it ends.
@@ -72,7 +72,7 @@ RelaxedGraph::RelaxedGraph(const LaneGraph& graph, double change_price) {
   first_change = arcs.size();
   for (LaneIndex lane = 0; lane < graph.size(); ++lane) {
     for (const LaneGraph::Neighbour& neighbour : graph.neighbours(lane)) {
-      double weight = kMaxWeight;
+      double weight = RelaxedGraph::kMaxWeight;
       for (const Rests& rests : restsOf(graph, lane, neighbour.pair)) {
         weight = std::min(weight, price + rates[neighbour.pair.b] * rests.b - rates[lane] * rests.a);
       }

@@ -17,6 +17,7 @@ namespace external_command {
 /// `rate` is counted, 1 but where lanes abreast differ in length by more than the price.
 struct RelaxedGraph {
   static constexpr double kUnitsPerMetre = 256.0;
+  static constexpr double kMaxWeight = 10000.0;  ///< so that sums stay in range; a bound may always be lower [m]
   static constexpr std::int32_t kUnreachable = (1 << 30) - 1;  ///< two of them can be added
 
   struct Arc {
