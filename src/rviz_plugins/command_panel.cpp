@@ -98,8 +98,8 @@ void CommandPanel::connectTools() {
 
 void CommandPanel::connectKeys() {
   ToolHub& hub = ToolHub::instance();
-  const auto bind = [this, &hub](int keys, const std::function<void()>& tell) {
-    auto* const shortcut = new QShortcut(QKeySequence(keys), this);
+  const auto bind = [this, &hub](const QKeySequence& keys, const std::function<void()>& tell) {
+    auto* const shortcut = new QShortcut(keys, this);
     shortcut->setContext(Qt::ApplicationShortcut);
     shortcut->setAutoRepeat(false);
     // With several panels Qt finds the key ambiguous, and tells one of them: whichever it is tells the hub.
@@ -107,8 +107,8 @@ void CommandPanel::connectKeys() {
     connect(shortcut, &QShortcut::activatedAmbiguously, &hub, tell);
   };
   bind(Qt::Key_Space, [&hub] { Q_EMIT hub.stopPressed(); });
-  bind(Qt::CTRL + Qt::Key_Return, [&hub] { Q_EMIT hub.sendPressed(false); });
-  bind(Qt::CTRL + Qt::SHIFT + Qt::Key_Return, [&hub] { Q_EMIT hub.sendPressed(true); });
+  bind(Qt::CTRL | Qt::Key_Return, [&hub] { Q_EMIT hub.sendPressed(false); });
+  bind(Qt::CTRL | Qt::SHIFT | Qt::Key_Return, [&hub] { Q_EMIT hub.sendPressed(true); });
   for (int i = 0; i < static_cast<int>(kCommandKinds.size()); ++i) {
     bind(Qt::Key_F1 + i, [&hub, i] { Q_EMIT hub.kindPressed(i); });
   }

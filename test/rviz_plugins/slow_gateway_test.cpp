@@ -174,7 +174,7 @@ TEST(Panel, RefusesNamesThatRosDoesNotTake) {
 TEST(Panel, ChoosesTheCommandByKeys) {
   CommandPanel panel;
   panel.show();
-  QApplication::setActiveWindow(&panel);
+  panel.activateWindow();
   ASSERT_TRUE(QTest::qWaitForWindowActive(&panel));
   for (int i = 0; i < static_cast<int>(kCommandKinds.size()); ++i) {
     QTest::keyClick(&panel, static_cast<Qt::Key>(Qt::Key_F1 + i));
