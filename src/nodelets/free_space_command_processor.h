@@ -5,7 +5,7 @@
 
 #include "distance_limits.h"
 #include "external_command/FreeSpace.h"
-#include "manoeuvre_planner.h"
+#include "nodelets/manoeuvres/manoeuvre_planner.h"
 
 namespace external_command {
 

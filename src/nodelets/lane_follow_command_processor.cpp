@@ -3,7 +3,7 @@
 
 #include "external_command/LaneFollowAction.h"
 #include "external_command/ros/action_front.h"
-#include "parking_manoeuvres.h"
+#include "nodelets/manoeuvres/parking_manoeuvres.h"
 
 namespace external_command {
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "external_command/LaneFollow.h"
-#include "manoeuvre_planner.h"
+#include "nodelets/manoeuvres/manoeuvre_planner.h"
 
 namespace external_command {
 

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <pluginlib/class_list_macros.hpp>
 
-#include "action_command_processor.h"
-#include "chassis_command_processor.h"
-#include "external_command_process_component.h"
 #include "free_space_command_processor.h"
 #include "lane_follow_command_processor.h"
-#include "move_base_adapter.h"
-#include "old_routing_adapter.h"
-#include "path_follow_command_processor.h"
+#include "nodelets/action/action_command_processor.h"
+#include "nodelets/chassis/chassis_command_processor.h"
+#include "nodelets/component/external_command_process_component.h"
+#include "nodelets/move_base/move_base_adapter.h"
+#include "nodelets/old_routing/old_routing_adapter.h"
+#include "nodelets/path_follow/path_follow_command_processor.h"
+#include "nodelets/zone_cover/zone_cover_command_processor.h"
 #include "precise_parking_command_processor.h"
 #include "speed_command_processor.h"
 #include "valet_parking_command_processor.h"
-#include "zone_cover_command_processor.h"
 
 PLUGINLIB_EXPORT_CLASS(external_command::ActionCommandProcessor, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(external_command::ChassisCommandProcessor, nodelet::Nodelet)

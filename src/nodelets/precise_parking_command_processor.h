@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "external_command/PreciseParking.h"
-#include "parking_manoeuvres.h"
+#include "nodelets/manoeuvres/parking_manoeuvres.h"
 
 namespace external_command {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "external_command/ValetParking.h"
-#include "parking_manoeuvres.h"
-#include "parking_poses.h"
+#include "nodelets/manoeuvres/parking_manoeuvres.h"
+#include "nodelets/manoeuvres/parking_poses.h"
 
 namespace external_command {
 

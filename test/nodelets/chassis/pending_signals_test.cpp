@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nodelets/pending_signals.h"
+#include "nodelets/chassis/pending_signals.h"
 
 #include <gtest/gtest.h>
 #include <ros/time.h>

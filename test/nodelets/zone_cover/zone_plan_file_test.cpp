@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nodelets/zone_plan_file.h"
+#include "nodelets/zone_cover/zone_plan_file.h"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
@@ -11,8 +11,8 @@
 #include <string>
 
 #include "external_command/core/error.h"
-#include "nodelets/durable_file.h"
-#include "nodelets/zone_text.h"
+#include "nodelets/zone_cover/durable_file.h"
+#include "nodelets/zone_cover/zone_text.h"
 #include "support/zone_plans.h"
 
 namespace external_command {

@@ -12,8 +12,8 @@
 #include "external_command/Chassis.h"
 #include "external_command/PlanningState.h"
 #include "external_command/ros/service_command_processor.h"
-#include "heard_chassis.h"
-#include "mode_switch.h"
+#include "nodelets/chassis/heard_chassis.h"
+#include "nodelets/chassis/mode_switch.h"
 #include "pending_actions.h"
 
 namespace external_command {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nodelets/parking_poses.h"
+#include "nodelets/manoeuvres/parking_poses.h"
 
 #include <gtest/gtest.h>
 

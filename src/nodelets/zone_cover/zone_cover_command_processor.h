@@ -7,7 +7,7 @@
 #include <string>
 
 #include "external_command/ZoneCover.h"
-#include "parking_manoeuvres.h"
+#include "nodelets/manoeuvres/parking_manoeuvres.h"
 #include "zone_keeper.h"
 #include "zone_plan_file.h"
 #include "zone_sweep.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nodelets/zone_text.h"
+#include "nodelets/zone_cover/zone_text.h"
 
 #include <gtest/gtest.h>
 

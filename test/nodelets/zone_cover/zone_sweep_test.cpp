@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nodelets/zone_sweep.h"
+#include "nodelets/zone_cover/zone_sweep.h"
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "distance_limits.h"
 #include "external_command/PathFollow.h"
 #include "external_command/ros/motion_command_processor.h"
+#include "nodelets/distance_limits.h"
 
 namespace external_command {
 

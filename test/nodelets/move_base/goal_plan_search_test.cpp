@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nodelets/goal_plan_search.h"
+#include "nodelets/move_base/goal_plan_search.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nodelets/zone_resume.h"
+#include "nodelets/zone_cover/zone_resume.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 #include <string>
 
 #include "external_command/core/error.h"
-#include "nodelets/zone_text.h"
+#include "nodelets/zone_cover/zone_text.h"
 #include "support/zone_plans.h"
 
 namespace external_command {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nodelets/zone_keeper.h"
+#include "nodelets/zone_cover/zone_keeper.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nodelets/pending_actions.h"
+#include "nodelets/action/pending_actions.h"
 
 #include <gtest/gtest.h>
 #include <ros/time.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nodelets/path_message.h"
+#include "nodelets/path_follow/path_message.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nodelets/mode_switch.h"
+#include "nodelets/chassis/mode_switch.h"
 
 #include <gtest/gtest.h>
 
