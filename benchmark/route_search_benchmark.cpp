@@ -2,8 +2,7 @@
 //
 // route_search_benchmark [--city CROSSINGS_PER_SIDE]... FILE...
 // Measures, for each map file and made-up city, routes between random places of its lanes, lane list included: by the
-// search with its index, and by the same without it (Dijkstra), whose costs must be the same. Prints one JSON
-// array.
+// search with its index, and by the same without it (Dijkstra). Prints one JSON array; fails where their costs differ.
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -12,6 +11,7 @@
 #include <fstream>
 #include <random>
 #include <sstream>
+#include <stdexcept>
 
 #include "../src/routing/route_builder.h"
 #include "../src/routing/route_search.h"
@@ -54,6 +54,11 @@ class Measurement {
     std::vector<RouteQuery> asked;
     for (int i = 0; i < queries; ++i) asked.push_back({{anyPlace()}, {}, {anyPlace()}, {}});
     const Answers answers = answer(graph, &index, asked), plain = answer(graph, nullptr, asked);
+    const int differing = differences(answers.costs, plain.costs);
+    if (differing > 0) {
+      throw std::runtime_error(name + ": " + std::to_string(differing) + " of " + std::to_string(queries) +
+                               " routes cost something else than Dijkstra's");
+    }
     std::ostringstream out;
     out << "{\"map\": \"" << name << "\", \"lanes\": " << lanes_.size() << ", \"graph_s\": " << graph_built - begin
         << ", \"index_s\": " << index_built - graph_built << ", \"index_mb\": " << after - before
@@ -62,8 +67,7 @@ class Measurement {
         << ", \"route_us_median\": " << 1e6 * benchmark::quantile(answers.times, 0.5)
         << ", \"route_us_p99\": " << 1e6 * benchmark::quantile(answers.times, 0.99)
         << ", \"plain_us_median\": " << 1e6 * benchmark::quantile(plain.times, 0.5)
-        << ", \"plain_us_p99\": " << 1e6 * benchmark::quantile(plain.times, 0.99)
-        << ", \"other_costs\": " << differences(answers.costs, plain.costs) << "}";
+        << ", \"plain_us_p99\": " << 1e6 * benchmark::quantile(plain.times, 0.99) << "}";
     return out.str();
   }
 
