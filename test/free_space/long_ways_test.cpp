@@ -23,7 +23,7 @@ FreeSpaceParams quickParams() {
   return params;
 }
 
-const ParkingCase& madeCase(const std::string& name) {
+ParkingCase madeCase(const std::string& name) {
   static const std::vector<ParkingCase> cases = benchmark::makeParkingCases(1);
   for (const ParkingCase& task : cases) {
     if (task.name == name) return task;
@@ -37,7 +37,7 @@ FreeSpacePlan planned(const ParkingCase& task, const FreeSpaceParams& params = q
 
 TEST(LongWays, AreFoundThroughManyGatesAndBetweenManyPosts) {
   for (const char* name : {"slalom_4_7_4", "slalom_8_7_4", "slalom_15_7_4", "lot_200x150_500", "maze_6", "road_3000"}) {
-    const ParkingCase& task = madeCase(name);
+    const ParkingCase task = madeCase(name);
     const FreeSpacePlan result = planned(task);
     EXPECT_TRUE(joins(result.path, task.start, task.goal)) << name;
     EXPECT_TRUE(isDrivable(result.path, task.vehicle)) << name;
@@ -46,7 +46,7 @@ TEST(LongWays, AreFoundThroughManyGatesAndBetweenManyPosts) {
 }
 
 TEST(LongWays, GetCheaperWithMoreWork) {
-  const ParkingCase& task = madeCase("lot_100x60_100");
+  const ParkingCase task = madeCase("lot_100x60_100");
   FreeSpaceParams params = quickParams();
   params.improve_budget = 300.0;
   params.improve_iterations = 5000;
