@@ -131,6 +131,7 @@ ec_tell_size() {
   local apt=()
   while [ "$1" != -- ]; do apt+=("$1") && shift; done
   shift
-  "${apt[@]}" --assume-no install --no-install-recommends "$@" 2>&1 |
+  # Not --assume-no: apt asks nothing, and installs, where nothing comes along.
+  "${apt[@]}" --print-uris --yes install --no-install-recommends "$@" 2>&1 |
     grep --extended-regexp '^([0-9]+ upgraded|Need to get|After this operation|E: )' || true
 }
