@@ -182,15 +182,15 @@ void GatewayLink::call(const std::string& name, const Answer& asked, const typen
   const std::string service = nameOf(name);
   const int call = ++last_call_;
   watch(call, asked);
-  const bool is_begun = background_.count() < kMaxAtWork && background_.run([=]() -> Background::Job {
+  const auto work = [this, service, call, asked, request, reply]() -> Background::Job {
     typename Service::Response response;
     const bool is_answered = ros::NodeHandle().serviceClient<Service>(service).call(request, response);
-    return [=] {
+    return [this, service, call, asked, reply, is_answered, response] {
       waiting_.erase(call);
       is_answered ? reply(response) : fail(asked, service);
     };
-  });
-  if (is_begun) return;
+  };
+  if (background_.count() < kMaxAtWork && background_.run(work)) return;
   waiting_.erase(call);
   fail(asked, service);
 }
