@@ -22,7 +22,8 @@ from external_command.srv import FindMapObjects, GetCurrentCommand  # noqa: E402
 
 CONFIG = os.path.join(ROOT, "rviz/external_command.rviz")
 DRY_RUN_COLOUR = (51, 255, 255)
-LANE_FOLLOW, VALET_PARKING = "F1", "F4"
+# Keycodes of F1 and F4: of their names xdotool makes Alt+F1 and Alt+F4 with the keyboards of xkb-data from 2.44 on.
+LANE_FOLLOW, VALET_PARKING = "67", "70"
 DRIVING = 150.0  # how long a drive across the town may take [s]
 
 
@@ -40,12 +41,19 @@ class RvizTest(unittest.TestCase):
         cls.screen = Screen(CONFIG)
         cls.screen.__enter__()
         support.wait_until(cls._is_drawn, "rviz listens to the markers", 120.0)
-        cls.screen.click(300.0, 300.0)  # no window manager: this makes the window the active one
+        answers = support.Collector("external_command/status", CommandStatus)
+        support.wait_until(lambda: cls._press_stop() or answers.messages, "the panel takes keys", 60.0)
+        answers.close()
 
     @classmethod
     def tearDownClass(cls):
         if hasattr(cls, "screen"):
             cls.screen.__exit__()
+
+    @classmethod
+    def _press_stop(cls):
+        cls.screen.click(300.0, 300.0)  # no window manager: this makes the window the active one
+        cls.screen.keys("space")
 
     @staticmethod
     def _is_drawn():
