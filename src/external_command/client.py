@@ -14,6 +14,7 @@ import time
 import rospy
 from geometry_msgs.msg import Point
 
+import external_command.old_rospy  # noqa: F401
 from external_command import commands, msg, srv
 from external_command.commands import pose, polygon  # noqa: F401  (for who imports them from here)
 from external_command.errors import (  # noqa: F401  (the exceptions are used from here)

@@ -65,7 +65,7 @@ class TextOutput:
         """Of a command that runs: a bar that is drawn over itself on a terminal, else a line."""
         if not sys.stdout.isatty():
             return self._print(describe(status))
-        text = progress_bar(status, shutil.get_terminal_size().columns - 1)
+        text = progress_bar(status, (shutil.get_terminal_size().columns or 80) - 1)  # 0: not told
         sys.stdout.write("\r" + text.ljust(self._bar))
         sys.stdout.flush()
         self._bar = len(text)

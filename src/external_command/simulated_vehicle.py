@@ -10,6 +10,7 @@ import rospy
 from geometry_msgs.msg import PoseWithCovarianceStamped, TransformStamped
 from tf2_msgs.msg import TFMessage
 
+import external_command.old_rospy  # noqa: F401
 from external_command import bicycle
 from external_command.msg import (Chassis, ChassisCommand, CommandStatus, ControlPad, PlanningCommand, PlanningPad,
                                   PlanningState, SpeedCommand)

@@ -3,6 +3,7 @@
 """doc/command_line.md: its examples, typed into a shell as they stand there, the exit codes, and completion."""
 import os
 import re
+import shutil
 import subprocess
 import sys
 import unittest
@@ -53,6 +54,8 @@ class CommandLinePageTest(unittest.TestCase):
         except ImportError:
             self.skipTest("python3-argcomplete is not installed")
         setup = doc_examples.blocks(PAGE, "bash")[0]
+        if not shutil.which("register-python-argcomplete"):
+            setup = setup.replace("$(register-python-argcomplete ", "$(register-python-argcomplete3 ")
         line = "external_command_client valet-parking n_out_1"
         script = setup + '\nCOMP_LINE="%s" COMP_POINT=%d COMP_TYPE=9\n' % (line, len(line)) + \
             '_python_argcomplete external_command_client; printf "%s\\n" "${COMPREPLY[@]}"'

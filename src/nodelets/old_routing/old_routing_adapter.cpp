@@ -18,6 +18,7 @@ namespace external_command {
 namespace {
 
 constexpr std::size_t kMaxWaiting = 10;
+constexpr std::uint32_t kMaxArriving = 100;  // roscpp drops without a word, so that what is too much is to get here
 
 template <class Service, class Command>
 CommandStatus call(ros::NodeHandle& nh, const std::string& name, const Command& command, const ros::M_string& header) {
@@ -59,12 +60,12 @@ void OldRoutingAdapter::open() {
     take(event.getConstMessage());
   };
   const RequestLimits& limits = context().params().requests;
-  request_subscriber_ = subscribeBounded<RoutingRequest>(nh, request_topic_, kMaxWaiting, on_request, limits);
+  request_subscriber_ = subscribeBounded<RoutingRequest>(nh, request_topic_, kMaxArriving, on_request, limits);
   if (goal_topic_.empty()) return;
   const auto on_goal = [this](const ros::MessageEvent<geometry_msgs::PoseStamped const>& event) {
     takeGoal(*event.getConstMessage());
   };
-  goal_subscriber_ = subscribeBounded<geometry_msgs::PoseStamped>(nh, goal_topic_, kMaxWaiting, on_goal, limits);
+  goal_subscriber_ = subscribeBounded<geometry_msgs::PoseStamped>(nh, goal_topic_, kMaxArriving, on_goal, limits);
 }
 
 void OldRoutingAdapter::takeGoal(const geometry_msgs::PoseStamped& goal) {
