@@ -247,11 +247,7 @@ CoverageResult CoveragePlanner::plan(const CoverageArea& area, const std::option
   const Field field(vehicle_, params_, area, start, cancel);
   const Course course = courseOf(field, progress);
   CoverageResult result;
-  if (start && !field.isFree(*field.start())) {
-    result.warnings.push_back(text("the start ", at(*start),
-                                   " is nearer to a border or an obstacle than the margin of ", metres(params_.margin),
-                                   ": it is left with a smaller one"));
-  }
+  if (!field.startWarning().empty()) result.warnings.push_back(field.startWarning());
   result.lines = linesOf(field, course);
   PathBuilder builder(field, course, &result);
   for (std::size_t i = 0; i < progress.swept.size(); ++i) builder.count(i, progress.swept[i]);

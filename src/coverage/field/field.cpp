@@ -101,18 +101,25 @@ void Field::setShapes(const CoverageArea& area) {
                             std::round(area.outer.area()), " m^2"));
 }
 
-void Field::requireFreeStart(const CoverageArea& area) const {
+void Field::requireFreeStart(const CoverageArea& area) {
   if (!start_) return;
   if (!start_->isFinite()) throw InvalidRequest("the start pose is not finite");
-  const auto collision = bare_checker_.collisionAt(*start_);
-  if (!collision) return;
   const Pose2d given{start_->x + origin_.x(), start_->y + origin_.y(), start_->heading};
-  std::string obstacle = "sticks out of the area";
-  if (collision->kind == Collision::Kind::kNonDrivable) {
+  const auto is_inner = [](const Collision& collision) { return collision.kind == Collision::Kind::kNonDrivable; };
+  const auto nameOf = [&](const Collision& collision) {
     // The obstacles of the grid come after the holes.
-    const bool is_hole = collision->index < area.holes.size();
-    obstacle = "overlaps " + (is_hole ? collision->obstacle() : "an obstacle of the grid");
+    return collision.index < area.holes.size() ? collision.obstacle() : "an obstacle of the grid";
+  };
+  const auto collision = bare_checker_.collisionAt(*start_);
+  if (!collision) {
+    const auto close = checker_.collisionAt(*start_);
+    if (!close) return;
+    start_warning_ = text("at the start ", at(given), " the footprint is nearer to ",
+                          is_inner(*close) ? nameOf(*close) : "the border of the area", " than the margin of ",
+                          metres(params_.margin), ", ", close->extent(), "; it leaves with a smaller margin");
+    return;
   }
+  const std::string obstacle = is_inner(*collision) ? "overlaps " + nameOf(*collision) : "sticks out of the area";
   const Region region({area.outer, area.holes, area.grid, std::nullopt, area.limits});
   throw StartBlocked(text("at the start ", at(given), " the footprint ", obstacle, " ", collision->extent(),
                           unknownCellsHint(vehicle_, 0.0, region, given, checkpoint()),

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "coverage/path/curve.h"
@@ -34,6 +35,7 @@ class Field {
 
   const Point2d& origin() const { return origin_; }
   const std::optional<Pose2d>& start() const { return start_; }
+  const std::string& startWarning() const { return start_warning_; }  ///< empty where the start keeps the margin
 
   const shapes::Shapes& free() const { return free_; }
   const shapes::Shapes& goal() const { return goal_; }          ///< what the tool can reach from the start
@@ -60,7 +62,7 @@ class Field {
  private:
   void setShapes(const CoverageArea& area);
   void setGoal();
-  void requireFreeStart(const CoverageArea& area) const;
+  void requireFreeStart(const CoverageArea& area);
 
   VehicleParams vehicle_;
   CoverageParams params_;
@@ -68,6 +70,7 @@ class Field {
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   Point2d origin_;
   std::optional<Pose2d> start_;
+  std::string start_warning_;
   double reach_;  ///< rear axle to the farthest corner [m]
   shapes::Shapes free_;
   shapes::Shapes goal_;

@@ -23,9 +23,8 @@ class Connector {
   /// A short way from `from` to the start of `next`; nullopt if none was found. Where there is no turn, part of
   /// `driven` is backed along first, the way that led to `from`, or part of `next` last: out of a dead end, or into
   /// one.
-  /// @param driven  nullptr: what led there is not known. `from` may then be nearer to something than the margin, and
-  /// is
-  ///                left with a smaller one nearby.
+  /// @param driven  nullptr: what led there is not known. `from` may then be nearer to something than the margin,
+  ///                and is left with a smaller one nearby.
   std::optional<Curve> connect(const Curve* driven, const Pose2d& from, const Curve& next) const;
 
  private:
