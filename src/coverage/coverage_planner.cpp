@@ -243,7 +243,7 @@ CoveragePlanner::CoveragePlanner(const VehicleParams& vehicle, const CoveragePar
 CoverageResult CoveragePlanner::plan(const CoverageArea& area, const std::optional<Pose2d>& start,
                                      const CoverageProgress& progress, const CancelToken& cancel) const {
   const auto began = Clock::now();
-  requirePlausible(progress, area.outer, vehicle_, params_);
+  requirePlausible(progress, area.outer, vehicle_, params_, cancel);
   const Field field(vehicle_, params_, area, start, cancel);
   const Course course = courseOf(field, progress);
   CoverageResult result;

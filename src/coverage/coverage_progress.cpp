@@ -28,8 +28,9 @@ Point2d sizeOf(const BoundingBox& box) { return box.max - box.min; }
 /// Looks at one line after the other; `who` in the texts is "swath 7".
 class LineCheck {
  public:
-  LineCheck(const Polygon& area, const VehicleParams& vehicle, const CoverageParams& params)
+  LineCheck(const Polygon& area, const VehicleParams& vehicle, const CoverageParams& params, const CancelToken& cancel)
       : vehicle_(vehicle),
+        cancel_(cancel),
         origin_(area.box().min),
         size_(sizeOf(area.box())),
         cell_(std::max(kCell, std::sqrt(size_.x() * size_.y() / kMostCells))),
@@ -47,6 +48,7 @@ class LineCheck {
     Pose2d pose = line.start;
     requireInside(pose, who);
     for (const ArcSegment& arc : line.arcs) {
+      cancel_.throwIfCancelled();
       const double most = 1.0 / vehicle_.min_turning_radius * kBendSlack;
       if (!(std::abs(arc.kappa) <= most)) {
         throw InvalidRequest(text(who, " bends by ", arc.kappa, " 1/m, the vehicle by ", most, " at most"));
@@ -72,6 +74,7 @@ class LineCheck {
   }
 
   const VehicleParams& vehicle_;
+  const CancelToken& cancel_;
   Point2d origin_;
   Point2d size_;
   double cell_;
@@ -137,7 +140,7 @@ void CoverageProgress::merge(const CoverageProgress& other) {
 }
 
 void requirePlausible(const CoverageProgress& progress, const Polygon& area, const VehicleParams& vehicle,
-                      const CoverageParams& params) {
+                      const CoverageParams& params, const CancelToken& cancel) {
   std::size_t arcs = 0;
   for (const SwathLine& line : progress.lines) arcs += line.arcs.size();
   if (progress.lines.size() > CoverageProgress::kMostLines || arcs > CoverageProgress::kMostArcs) {
@@ -145,7 +148,7 @@ void requirePlausible(const CoverageProgress& progress, const Polygon& area, con
                               CoverageProgress::kMostLines, " and ", CoverageProgress::kMostArcs, " are taken"));
   }
   if (!progress.lines.empty()) {
-    LineCheck check(area, vehicle, params);
+    LineCheck check(area, vehicle, params, cancel);
     for (std::size_t i = 0; i < progress.lines.size(); ++i) check.check(progress.lines[i], text("swath ", i));
   }
   requireProgress(progress);

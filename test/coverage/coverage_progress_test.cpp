@@ -48,6 +48,13 @@ TEST(CoverageProgress, SkipsNoLongerWhatIsDone) {
   EXPECT_TRUE(progress.isSkipped(2));
 }
 
+TEST(CoverageProgress, IsCheckedNoLongerOnceCancelled) {
+  const CancelSource source;
+  EXPECT_NO_THROW(requirePlausible(lapAndSwaths(), yard(), VehicleParams(), CoverageParams(), source.token()));
+  source.cancel();
+  EXPECT_THROW(requirePlausible(lapAndSwaths(), yard(), VehicleParams(), CoverageParams(), source.token()), Cancelled);
+}
+
 TEST(CoverageProgress, TakesOverWhatAnotherRunHasSwept) {
   CoverageProgress progress = lapAndSwaths(), other = lapAndSwaths();
   progress.sweep(0, 50.0);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "external_command/core/cancel_token.h"
 #include "external_command/core/polygon.h"
 #include "external_command/core/vehicle.h"
 #include "external_command/coverage/coverage_params.h"
@@ -49,7 +50,8 @@ struct CoverageProgress {
 /// For what comes from a file: bounds and physics, so that a plan made of it takes neither minutes nor gigabytes.
 /// @throws InvalidRequest  `progress` is no plan for this area and vehicle: a number is not finite, a line bends more
 ///                         than the vehicle can or leaves the area, more is swept than there is; the text names it.
+/// @throws Cancelled
 void requirePlausible(const CoverageProgress& progress, const Polygon& area, const VehicleParams& vehicle,
-                      const CoverageParams& params);
+                      const CoverageParams& params, const CancelToken& cancel = {});
 
 }  // namespace external_command

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "cell_grid.h"
 #include "motion/footprint_index.h"
 
 namespace external_command {
@@ -18,13 +19,7 @@ class DistanceMap {
   double at(double x, double y) const;
 
  private:
-  long cellAt(double x, double y) const;
-  void flood(const FootprintIndex& index, const Pose2d& target);
-
-  Point2d corner_;
-  double cell_size_;
-  long columns_;
-  long rows_;
+  CellGrid grid_;
   std::vector<float> distances_;
 };
 

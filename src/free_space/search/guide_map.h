@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
+#include "cell_grid.h"
 #include "motion/footprint_index.h"
 
 namespace external_command {
@@ -20,26 +22,19 @@ struct GuidePoint {
 class GuideMap {
  public:
   /// @param area  what the way stays in; the cells are enlarged where it is huge.
-  GuideMap(const FootprintIndex& index, const BoundingBox& area);
+  /// @param stop  asked now and then, here and by way(): once it says so, there is no way.
+  GuideMap(const FootprintIndex& index, const BoundingBox& area, std::function<bool()> stop);
 
-  /// The cheapest way from one point to the other (Dijkstra's search on a grid); points about a cell apart. Empty where
-  /// a point lies outside the area.
+  /// The cheapest way from one point to the other; points about a cell apart. Empty where a point lies outside the
+  /// area, or once stopped.
   std::vector<GuidePoint> way(const Point2d& from, const Point2d& to) const;
 
   /// Makes the tightest place between two points of a way dear.
   void close(const std::vector<GuidePoint>& way, std::size_t first, std::size_t last);
 
  private:
-  using Cost = std::uint64_t;
-
-  long cellAt(const Point2d& point) const;
-  Point2d centreOf(long cell) const;
-  std::vector<Cost> costsTo(long target, long from) const;
-
-  Point2d corner_;
-  double cell_size_;
-  long columns_;
-  long rows_;
+  CellGrid grid_;
+  std::function<bool()> stop_;
   std::vector<std::uint16_t> prices_;  ///< of a cell
   std::vector<float> rooms_;           ///< [m]
 };

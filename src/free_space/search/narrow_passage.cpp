@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "cell_grid.h"
+
 namespace external_command {
 
 namespace {
@@ -24,30 +26,20 @@ constexpr std::size_t kCellsPerLook = 256;  ///< at the clock
 class PassageGrid {
  public:
   PassageGrid(const FootprintIndex& index, const BoundingBox& area)
-      : index_(index), corner_(area.min), radius_(index.axleDisc()) {
-    const Point2d size = area.max - area.min;
-    cell_size_ = std::max(kCellSize, std::sqrt(size.x() * size.y() / kMaxCells));
-    columns_ = static_cast<long>(size.x() / cell_size_) + 1;
-    rows_ = static_cast<long>(size.y() / cell_size_) + 1;
-  }
+      : index_(index), radius_(index.axleDisc()), cells_(area.min, area.max, kCellSize, kMaxCells) {}
 
-  long cellAt(const Point2d& point) const {
-    const Point2d cell = (point - corner_) / cell_size_;
-    if (!(cell.x() >= 0.0 && cell.y() >= 0.0)) return -1;
-    const long column = static_cast<long>(cell.x()), row = static_cast<long>(cell.y());
-    return column < columns_ && row < rows_ ? row * columns_ + column : -1;
-  }
+  long cellAt(const Point2d& point) const { return cells_.at(point); }
 
   /// True, too, once `stop` says so.
   bool connects(long from, long to, const std::function<bool()>& stop) const {
-    std::vector<bool> is_seen(static_cast<std::size_t>(columns_ * rows_));
+    std::vector<bool> is_seen(static_cast<std::size_t>(cells_.count()));
     std::vector<long> open{from};
     is_seen[static_cast<std::size_t>(from)] = true;
     for (std::size_t looked = 0; !open.empty(); ++looked) {
       const long cell = open.back();
       open.pop_back();
       if (cell == to || (looked % kCellsPerLook == 0 && stop())) return true;
-      forEachNeighbour(cell, [&](long next, const Point2d& a, const Point2d& b) {
+      cells_.forEachBeside(cell, [&](long next, const Point2d& a, const Point2d& b) {
         if (is_seen[static_cast<std::size_t>(next)] || !letsPass(a, b)) return;
         is_seen[static_cast<std::size_t>(next)] = true;
         open.push_back(next);
@@ -69,8 +61,8 @@ class PassageGrid {
       long cell;
       bool operator<(const Entry& other) const { return room < other.room; }
     };
-    std::vector<double> rooms(static_cast<std::size_t>(columns_ * rows_), -1.0);
-    std::vector<Point2d> places(rooms.size(), centreOf(from));
+    std::vector<double> rooms(static_cast<std::size_t>(cells_.count()), -1.0);
+    std::vector<Point2d> places(rooms.size(), cells_.centreOf(from));
     std::priority_queue<Entry> open;
     rooms[static_cast<std::size_t>(from)] = std::numeric_limits<double>::infinity();
     open.push({rooms[static_cast<std::size_t>(from)], from});
@@ -81,7 +73,7 @@ class PassageGrid {
       if (here.room <= kTolerance || stop()) return std::nullopt;
       const auto at = static_cast<std::size_t>(here.cell);
       if (here.room < rooms[at]) continue;
-      forEachNeighbour(here.cell, [&](long next, const Point2d& a, const Point2d& b) {
+      cells_.forEachBeside(here.cell, [&](long next, const Point2d& a, const Point2d& b) {
         const auto there = static_cast<std::size_t>(next);
         if (rooms[there] >= here.room) return;
         Point2d place = a;
@@ -97,23 +89,6 @@ class PassageGrid {
   }
 
  private:
-  Point2d centreOf(long cell) const {
-    return corner_ +
-           cell_size_ * Point2d(static_cast<double>(cell % columns_) + 0.5, static_cast<double>(cell / columns_) + 0.5);
-  }
-
-  /// Calls `visit` with each neighbour and the ends of the side towards it.
-  template <class Visit>
-  void forEachNeighbour(long cell, const Visit& visit) const {
-    const long column = cell % columns_, row = cell / columns_;
-    const Point2d low = corner_ + cell_size_ * Point2d(static_cast<double>(column), static_cast<double>(row));
-    const Point2d x(cell_size_, 0.0), y(0.0, cell_size_);
-    if (column > 0) visit(cell - 1, low, low + y);
-    if (column + 1 < columns_) visit(cell + 1, low + x, low + x + y);
-    if (row > 0) visit(cell - columns_, low, low + x);
-    if (row + 1 < rows_) visit(cell + columns_, low + y, low + x + y);
-  }
-
   bool isInBounds(const Point2d& point) const { return index_.isWithinAxleBounds(point.x(), point.y()); }
 
   /// Whether the disc is free somewhere on the side. Room changes by no more than the distance moved, so a middle
@@ -154,11 +129,8 @@ class PassageGrid {
   }
 
   const FootprintIndex& index_;
-  Point2d corner_;
   double radius_;
-  double cell_size_;
-  long columns_;
-  long rows_;
+  CellGrid cells_;
 };
 
 /// The shortest line from obstacle to obstacle across `place`.

@@ -32,12 +32,13 @@ std::vector<double> lengthsOf(const std::vector<GuidePoint>& line) {
 }  // namespace
 
 WayPoseSearch::WayPoseSearch(const Scene& scene, const Query& query, const BoundingBox& area)
-    : scene_(scene), query_(query), area_(area), guide_(scene.index, area) {}
+    : scene_(scene), query_(query), area_(area) {}
 
 bool WayPoseSearch::run(const std::function<bool()>& stop) {
   stop_ = stop;
+  GuideMap guide(scene_.index, area_, stop_);
   for (std::size_t tried = 0; tried < kLines && !stop_(); ++tried) {
-    const std::vector<GuidePoint> line = guide_.way(query_.start.position(), query_.goal.position());
+    const std::vector<GuidePoint> line = guide.way(query_.start.position(), query_.goal.position());
     if (line.empty()) return false;
     const std::vector<WayPlace> places = placesOn(line);
     if (places.size() < 2) return false;
@@ -54,7 +55,7 @@ bool WayPoseSearch::run(const std::function<bool()>& stop) {
     while (first < last && (line[first].at - query_.start.position()).norm() < ends) ++first;
     while (first < last && (line[last - 1].at - query_.goal.position()).norm() < ends) --last;
     if (first == last) return false;
-    guide_.close(line, first, last);
+    guide.close(line, first, last);
   }
   return false;
 }

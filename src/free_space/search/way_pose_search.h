@@ -43,7 +43,6 @@ class WayPoseSearch {
   Scene scene_;
   Query query_;
   BoundingBox area_;
-  GuideMap guide_;
   std::function<bool()> stop_;
   std::size_t farthest_ = 0;  ///< place that was headed for
   std::size_t tries_ = 0;     ///< legs that are left to be tried on this line

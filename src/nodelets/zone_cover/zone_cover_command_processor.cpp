@@ -195,11 +195,12 @@ ZonePlanFile ZoneCoverCommandProcessor::fileOf(const ZoneCoverCommand& command, 
 }
 
 CoverageProgress ZoneCoverCommandProcessor::progressOf(const ZoneCoverCommand& command, const CoverageArea& zone,
-                                                       const CoverageParams& params, const ZonePlanFile& file) {
+                                                       const CoverageParams& params, const ZonePlanFile& file,
+                                                       const CancelToken& cancel) {
   if (!command.resume) return {};
   track();  // so that the last moments of a run that is under way count too
   std::optional<CoverageProgress> kept = keeper_->unwritten(file.path());
-  if (!kept) kept = readProgress(file, zone, params, context().params().vehicle, command.dry_run);
+  if (!kept) kept = readProgress(file, zone, params, context().params().vehicle, command.dry_run, cancel);
   const std::size_t total = kept->lines.size();
   if (kept->countDone() == total) {
     throw InvalidRequest(text("resume: the zone is swept, all ", total,
@@ -232,7 +233,7 @@ void ZoneCoverCommandProcessor::processSpecialCommand(const ZoneCoverCommand& co
   const Pose2d start = plan->path.empty() ? givenStart(command, plan->start) : plan->path.back().pose();
 
   const ZonePlanFile file = fileOf(command, zone, params);
-  CoverageProgress progress = progressOf(command, zone, params, file);
+  CoverageProgress progress = progressOf(command, zone, params, file, cancel);
   CoverageParams timed = params;
   timed.time_budget = std::max(deadline.left(), kLeastBudget);
   const CoveragePlanner planner(context().params().vehicle, timed);

@@ -53,7 +53,7 @@ class ZoneCoverCommandProcessor : public MotionCommandProcessor<ZoneCover> {
                  const CancelToken& cancel, MotionPlan* plan) const;
   ZonePlanFile fileOf(const ZoneCoverCommand& command, const CoverageArea& zone, const CoverageParams& params) const;
   CoverageProgress progressOf(const ZoneCoverCommand& command, const CoverageArea& zone, const CoverageParams& params,
-                              const ZonePlanFile& file);
+                              const ZonePlanFile& file, const CancelToken& cancel);
   void appendCoverage(const CoverageResult& coverage, MotionPlan* plan) const;
   /// The sweep was sent: it replaces the one before, and its file that one's.
   void begin(PlannedSweep* planned, const SentMotion& motion);

@@ -10,11 +10,11 @@
 namespace external_command {
 
 CoverageProgress readProgress(const ZonePlanFile& file, const CoverageArea& zone, const CoverageParams& params,
-                              const VehicleParams& vehicle, bool dry_run) {
+                              const VehicleParams& vehicle, bool dry_run, const CancelToken& cancel) {
   std::string damage;
   try {
     if (auto progress = file.read()) {
-      requirePlausible(*progress, zone.outer, vehicle, params);
+      requirePlausible(*progress, zone.outer, vehicle, params, cancel);
       return *std::move(progress);
     }
   } catch (const InvalidRequest& error) {

@@ -12,8 +12,9 @@ namespace external_command {
 /// @param dry_run  changes nothing; else a damaged file is kept aside.
 /// @throws InvalidRequest  it has kept nothing, or the file is damaged; the text says how, and what to do.
 /// @throws InternalError   the file cannot be read.
+/// @throws Cancelled
 CoverageProgress readProgress(const ZonePlanFile& file, const CoverageArea& zone, const CoverageParams& params,
-                              const VehicleParams& vehicle, bool dry_run);
+                              const VehicleParams& vehicle, bool dry_run, const CancelToken& cancel = {});
 
 /// Leaves lines that are not done for the end.
 /// @throws InvalidRequest  one is not in the plan.
