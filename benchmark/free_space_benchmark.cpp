@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -36,12 +39,16 @@ Plans every parking case (*.json), one line each and a summary. Needs no ROS mas
   --margin M        distance kept to all obstacles [m] (0.01)
   --reverse-factor F     price of a metre in reverse, as length forward (2)
   --gear-change-cost M   price of a gear change, as length [m] (3)
-  --continuous      curvature continuous between gear changes
+  --steering-cost M      price of turning the wheels from straight on to full lock, as length [m] (0.2)
+  --closeness-cost F     price of a metre beside an obstacle at the margin, as length (0.3)
+  --closeness-distance M    beyond the margin, from where on that is nothing [m] (0.5)
+  --jumps           curvature that jumps from arc to arc, as the search leaves it
   --paths DIR       write each path as DIR/CASE.json: [[x, y, theta, direction], ...]
   --svg DIR         draw each path as DIR/CASE.svg
 Columns: time and plain cost of the first valid path, plain cost of the final one (in brackets: of best_known.json
-beside the cases), its cost with the price of reversing, its length and that in reverse [m], gear changes and clearance
-[m], and the time that the case took on the wall clock and on the processor [s]. The plain cost, that of
+beside the cases), its cost with all prices, its length, that in reverse and that near obstacles [m], gear changes,
+turns of the wheels between them (1: from straight on to full lock), how long a vehicle at manoeuvre speed waits for
+these [s], clearance [m], and the time that the case took on the wall clock and on the processor [s]. The plain cost, that of
 best_known.json, is length plus 3 m per gear change. A path that a controller could not rely on has a line more.
 Exit code: 0; 1 if there is such a path; 2 if an option is wrong or a file cannot be read or written.
 )";
@@ -59,7 +66,8 @@ struct Options {
 struct Summary {
   std::size_t cases = 0;
   std::size_t faulty = 0;
-  double length = 0.0, reverse_length = 0.0;  // of all paths [m]
+  double length = 0.0, reverse_length = 0.0, near_length = 0.0;  // of all paths [m]
+  std::vector<double> wheel_turns, waits;
   std::vector<double> first_times, first_ratios, ratios, cpu_times;
 };
 
@@ -80,7 +88,10 @@ Options parse(CommandLine line) {
                                {"--margin", [&] { params.margin = line.number(); }},
                                {"--reverse-factor", [&] { params.reverse_factor = line.number(); }},
                                {"--gear-change-cost", [&] { params.gear_change_cost = line.number(); }},
-                               {"--continuous", [&] { params.continuous_curvature = true; }},
+                               {"--steering-cost", [&] { params.steering_cost = line.number(); }},
+                               {"--closeness-cost", [&] { params.closeness_cost = line.number(); }},
+                               {"--closeness-distance", [&] { params.closeness_distance = line.number(); }},
+                               {"--jumps", [&] { params.continuous_curvature = false; }},
                                {"--paths", [&] { options.paths = line.value(); }},
                                {"--svg", [&] { options.drawings = line.value(); }}});
   params.improve_budget = improve < 0.0 ? params.time_budget : improve;
@@ -91,12 +102,27 @@ Options parse(CommandLine line) {
 /// What best_known.json counts, whatever the prices of the search are.
 double plainCost(double length, unsigned gear_changes) { return length + 3.0 * gear_changes; }
 
-void report(const FreeSpacePlan& result, double best_known, double cpu_seconds, Summary* summary) {
+/// How much longer than at `speed` the path takes since the steering cannot keep up, but for gear changes [s].
+double waitForSteering(const Path& path, const VehicleParams& vehicle, double speed) {
+  double wait = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    if (path[i].direction != path[i - 1].direction) continue;
+    const double turned =
+        std::abs(std::atan(vehicle.wheelbase * path[i].kappa) - std::atan(vehicle.wheelbase * path[i - 1].kappa));
+    wait += std::max(0.0, turned / vehicle.max_steering_rate - (path[i].s - path[i - 1].s) / speed);
+  }
+  return wait;
+}
+
+void report(const FreeSpacePlan& result, double wait, double best_known, double cpu_seconds, Summary* summary) {
   const double first = plainCost(result.first_path_length, result.first_path_gear_changes);
   const double final = plainCost(result.length, result.gear_changes);
   summary->first_times.push_back(result.first_path_time);
   summary->length += result.length;
   summary->reverse_length += result.reverse_length;
+  summary->near_length += result.near_length;
+  summary->wheel_turns.push_back(result.wheel_turns);
+  summary->waits.push_back(wait);
   std::printf("first %7.2f ms %7.3f", 1e3 * result.first_path_time, first);
   if (best_known > 0.0) {
     summary->first_ratios.push_back(first / best_known);
@@ -105,9 +131,12 @@ void report(const FreeSpacePlan& result, double best_known, double cpu_seconds, 
   }
   std::printf("  final %7.3f", final);
   if (best_known > 0.0) std::printf(" (%.3f)", summary->ratios.back());
-  std::printf("  cost %7.3f  length %7.3f  reverse %7.3f  gear changes %2u  clearance %.3f  time %.3f  cpu %.3f\n",
-              result.cost, result.length, result.reverse_length, result.gear_changes, result.min_clearance,
-              result.planning_time, cpu_seconds);
+  std::printf(
+      "  cost %7.3f  length %7.3f  reverse %7.3f  near %7.3f  gear changes %2u  wheel turns %4.1f  wait %4.1f  "
+      "clearance %.3f  "
+      "time %.3f  cpu %.3f\n",
+      result.cost, result.length, result.reverse_length, result.near_length, result.gear_changes, result.wheel_turns,
+      wait, result.min_clearance, result.planning_time, cpu_seconds);
 }
 
 /// As it would be sent: its caps of speed made limits.
@@ -132,7 +161,8 @@ void runCase(const ParkingCase& task, const std::map<std::string, double>& best_
     const FreeSpacePlanner planner(task.vehicle, options.params);
     const FreeSpacePlan result = planner.plan(task.start, {task.goal}, task.region, {});
     const double cpu_seconds = cpuSeconds();
-    report(result, known == best_known.end() ? 0.0 : known->second, cpu_seconds, summary);
+    const double wait = waitForSteering(result.path, task.vehicle, options.params.manoeuvre_speed);
+    report(result, wait, known == best_known.end() ? 0.0 : known->second, cpu_seconds, summary);
     check(task, result.path, summary);
     if (!options.paths.empty()) writePath(task, result.path, options.paths + "/" + task.name + ".json");
     if (!options.drawings.empty()) writeDrawing(task, result.path, options.drawings + "/" + task.name + ".svg");
@@ -151,9 +181,14 @@ void print(const Summary& summary) {
                 median(summary.first_ratios), largest(summary.first_ratios), median(summary.ratios),
                 largest(summary.ratios));
   }
-  std::printf("; in reverse %.1f %% of the way; cpu median %.3f s, most %.3f s; faulty paths: %zu\n",
-              summary.length > 0.0 ? 100.0 * summary.reverse_length / summary.length : 0.0, median(summary.cpu_times),
-              largest(summary.cpu_times), summary.faulty);
+  std::printf(
+      "; in reverse %.1f %% of the way, near obstacles %.1f %%; wheel turns median %.1f, wait for them mean %.1f s; "
+      "cpu median %.3f s, most %.3f s; "
+      "faulty paths: %zu\n",
+      100.0 * summary.reverse_length / std::max(summary.length, 1e-9),
+      100.0 * summary.near_length / std::max(summary.length, 1e-9), median(summary.wheel_turns),
+      std::accumulate(summary.waits.begin(), summary.waits.end(), 0.0) / std::max<double>(summary.waits.size(), 1),
+      median(summary.cpu_times), largest(summary.cpu_times), summary.faulty);
 }
 
 int run(const CommandLine& line) {

@@ -111,6 +111,8 @@ class TextOutput:
         lengths = [(report.route_length, "route %.1f m"), (report.path_length, "path %.1f m"),
                    (report.reverse_length, "%.1f m in reverse"), (report.lane_changes, "%d lane changes"),
                    (report.gear_changes, "%d gear changes"), (report.min_clearance, "clearance %.2f m"),
+                   (report.wheel_turns, "%.1f turns of the wheels to full lock"),
+                   (report.near_length, "%.1f m near obstacles"),
                    (100.0 * report.coverage_ratio, "covers %.1f %%"),
                    (100.0 * report.reachable_coverage_ratio, "%.1f %% of what can be reached"),
                    (1000.0 * report.planning_time, "planned in %.1f ms")]

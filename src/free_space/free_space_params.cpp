@@ -33,6 +33,9 @@ void FreeSpaceParams::validate() const {
   requireParameter("threads", threads, 1, 64);
   requireParameter("gear_change_cost", gear_change_cost, 0.0, 1000.0);
   requireParameter("reverse_factor", reverse_factor, 1.0, 100.0);
+  requireParameter("steering_cost", steering_cost, 0.0, 100.0);
+  requireParameter("closeness_cost", closeness_cost, 0.0, 100.0);
+  requireParameter("closeness_distance", closeness_distance, 0.01, 2.0);
   requireParameter("spacing", spacing, 0.01, 1.0);
   requireParameter("manoeuvre_speed", manoeuvre_speed, 0.01, 5.0);
 }

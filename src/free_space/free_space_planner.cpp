@@ -8,6 +8,7 @@
 
 #include "external_command/core/error.h"
 #include "external_command/core/text.h"
+#include "free_space/driving_cost.h"
 #include "free_space/improve/anytime_improver.h"
 #include "free_space/ompl/first_path.h"
 #include "free_space/search/narrow_passage.h"
@@ -19,7 +20,6 @@ namespace external_command {
 
 namespace {
 
-constexpr double kRampsMayTake = 1e-3;       ///< of the margin [m]
 constexpr double kMaxDistance = 10'000.0;    ///< between start and goals [m]
 constexpr std::size_t kFirstPatience = 150;  ///< trials that make a first path out of what the search found
 constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
@@ -59,7 +59,8 @@ class Planning {
         start_(local(start)),
         stop_(cancel, after(begin_, params.time_budget)),
         index_(vehicle, params.margin, region, origin_, local(start, goals), [this] { throwIfStopped(); }),
-        scene_{index_, vehicle.min_turning_radius, {params.gear_change_cost, 1.0, params.reverse_factor}} {
+        scene_{index_, vehicle.min_turning_radius, {params.gear_change_cost, 1.0, params.reverse_factor}},
+        cost_(scene_, params.steering_cost, {params.closeness_cost, params.closeness_distance}) {
     if (const auto collision = probeCollision(index_, start_)) {
       throw StartBlocked(described("the start", start, *collision));
     }
@@ -212,9 +213,9 @@ class Planning {
     Arcs better = arcs;
     if (params_.planner == "portfolio") {
       WorkBudget budget(kUnlimited, stop_);
-      better = PathImprover(scene_, approach.query, params_.seed).improve(arcs, kFirstPatience, &budget);
+      better = PathImprover(scene_, cost_, approach.query, params_.seed).improve(arcs, kFirstPatience, &budget);
     }
-    const double cost = costOf(better, scene_.cost, approach.query.gear_after);
+    const double cost = cost_.of(start_, better, approach.query.gear_after);
     if (cost < best->cost) *best = {&approach, better, cost};
   }
 
@@ -224,48 +225,67 @@ class Planning {
     const StopCondition stop = stop_.within(params_.improve_budget);
     const auto improve = [&](unsigned thread) {
       WorkBudget budget(params_.improve_iterations > 0 ? params_.improve_iterations : kUnlimited, stop);
-      return AnytimeImprover(scene_, query, areaOf(query), params_.seed + 7919 * thread).improve(first.arcs, &budget);
+      return AnytimeImprover(scene_, cost_, query, areaOf(query), params_.seed + 7919 * thread)
+          .improve(first.arcs, &budget);
     };
     std::vector<std::future<Arcs>> others;
     for (unsigned i = 1; i < params_.threads; ++i) others.push_back(std::async(std::launch::async, improve, i));
     Solution best{first.approach, improve(0), 0.0};
-    best.cost = costOf(best.arcs, scene_.cost, query.gear_after);
+    best.cost = cost_.of(start_, best.arcs, query.gear_after);
     for (std::future<Arcs>& other : others) {
       const Arcs arcs = other.get();
-      const double cost = costOf(arcs, scene_.cost, query.gear_after);
+      const double cost = cost_.of(start_, arcs, query.gear_after);
       if (cost < best.cost) best.arcs = arcs, best.cost = cost;
     }
     stop_.cancel().throwIfCancelled();
     return best;
   }
 
-  /// The solution as a path in the local frame, checked.
+  /// The solution as a path in the local frame, checked; without ramps where these fail the check.
   /// @throws NoPath  it fails the last check.
   FreeSpacePlan finish(const Solution& solution) const {
-    Arcs arcs = merged(solution.arcs);
-    if (params_.continuous_curvature) arcs = withRamps(arcs);
+    const Arcs arcs = merged(solution.arcs);
+    if (params_.continuous_curvature) {
+      if (auto result = checkedPlan(solution, withRamps(arcs)); result.fault.empty()) return std::move(result.plan);
+    }
+    CheckedPlan plain = checkedPlan(solution, arcs);
+    if (!plain.fault.empty()) throw NoPath("the path found failed its last check: " + plain.fault);
+    return std::move(plain.plan);
+  }
+
+  struct CheckedPlan {
+    FreeSpacePlan plan;
+    std::string fault;  ///< empty where there is none
+  };
+
+  CheckedPlan checkedPlan(const Solution& solution, const Arcs& arcs) const {
     FreeSpacePlan result;
     result.path = sampleArcs(start_, arcs, params_.spacing);
     const PathDemands demands{start_, solution.approach->query.goal, vehicle_.maxKappa(), params_.spacing};
     const LastCheck check = checkPath(result.path, demands, index_);
-    if (check.fault) throw NoPath(text("the path found failed its last check: ", *check.fault));
     result.goal_index = solution.approach->goal_index;
-    result.cost = costOf(arcs, scene_.cost);
+    result.cost = cost_.of(start_, arcs, 0);
     result.length = lengthOf(arcs);
     result.gear_changes = gearChangesOf(arcs);
+    result.wheel_turns = wheelTurnsOf(arcs, scene_.radius);
+    result.near_length = cost_.nearLength(start_, arcs);
     result.min_clearance = check.min_clearance;
     result.reverse_length = reverseLength(result.path);
-    return result;
+    return {std::move(result), check.fault.value_or("")};
   }
 
   Arcs withRamps(const Arcs& arcs) const {
-    const PathDemands demands{start_, endOf(start_, arcs), vehicle_.maxKappa(), params_.spacing};
-    const auto keepsClear = [&](const Arcs& ramped) {
+    const auto keepsMargin = [&](const Pose2d& from, const Arcs& ramped) {
       stop_.cancel().throwIfCancelled();
-      const LastCheck check = checkPath(sampleArcs(start_, ramped, params_.spacing), demands, index_);
-      return !check.fault && check.min_room >= -kRampsMayTake;
+      if (stop_.isReached()) return false;
+      Pose2d begin = from;
+      return std::all_of(ramped.begin(), ramped.end(), [&](const ArcSegment& arc) {
+        const Pose2d here = begin;
+        begin = advance(begin, arc);
+        return index_.keepsMargin(here, arc);
+      });
     };
-    return withSteeringRamps(start_, arcs, vehicle_, params_.manoeuvre_speed, keepsClear);
+    return withSteeringRamps(start_, arcs, vehicle_, params_.manoeuvre_speed, keepsMargin);
   }
 
   /// Takes the better solution, unless it fails the last check: then the first path stays.
@@ -298,6 +318,7 @@ class Planning {
   StopCondition stop_;
   FootprintIndex index_;
   Scene scene_;
+  DrivingCost cost_;
   std::vector<Approach> approaches_;
   std::vector<Warning> warnings_;
 };

@@ -14,8 +14,9 @@ constexpr double kLongArc = 1.0;    ///< whose middle is worth a look of its own
 }  // namespace
 
 double costOf(const Arcs& arcs, const CostModel& cost, int gear_after) {
-  double total = gearChangesOf(arcs) * cost.gear_change_cost;
+  double total = 0.0;
   for (const ArcSegment& arc : arcs) total += cost.ofArc(arc.length);
+  for (std::size_t i = 1; i < arcs.size(); ++i) total += cost.between(arcs[i - 1], arcs[i]);
   if (!arcs.empty() && gearOf(arcs.back()) == -gear_after) total += cost.gear_change_cost;
   return total;
 }
@@ -32,6 +33,14 @@ unsigned gearChangesOf(const Arcs& arcs) {
   return changes;
 }
 
+double wheelTurnsOf(const Arcs& arcs, double radius) {
+  CostModel turns;
+  turns.steering_price = radius;
+  double sum = 0.0;
+  for (std::size_t i = 1; i < arcs.size(); ++i) sum += turns.between(arcs[i - 1], arcs[i]);
+  return sum;
+}
+
 Arcs reversed(const Arcs& arcs) {
   Arcs back(arcs.rbegin(), arcs.rend());
   for (ArcSegment& arc : back) arc.length = -arc.length;
@@ -42,8 +51,8 @@ Arcs merged(const Arcs& arcs) {
   Arcs result;
   for (const ArcSegment& arc : arcs) {
     if (std::abs(arc.length) < kEmptyArc) continue;
-    const bool same = !result.empty() && gearOf(result.back()) == gearOf(arc) &&
-                      std::abs(result.back().kappa - arc.kappa) < 1e-9;
+    const bool same =
+        !result.empty() && gearOf(result.back()) == gearOf(arc) && std::abs(result.back().kappa - arc.kappa) < 1e-9;
     if (same) {
       result.back().length += arc.length;
     } else {

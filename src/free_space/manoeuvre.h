@@ -28,11 +28,14 @@ struct Query {
 
 inline int gearOf(const ArcSegment& arc) { return arc.length < 0.0 ? -1 : 1; }
 
-/// Cost of the arcs with the gear changes between them, and with the one before `gear_after`.
+/// Cost of the arcs with gear changes and steering between them, and with the gear change before `gear_after`.
 double costOf(const Arcs& arcs, const CostModel& cost, int gear_after = 0);
 
 double lengthOf(const Arcs& arcs);
 unsigned gearChangesOf(const Arcs& arcs);
+
+/// Changes of curvature between gear changes, as multiples of that from straight on to full lock.
+double wheelTurnsOf(const Arcs& arcs, double radius);
 
 /// The same curve, driven from its end to its begin.
 Arcs reversed(const Arcs& arcs);

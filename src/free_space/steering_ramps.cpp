@@ -4,17 +4,20 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace external_command {
 
 namespace {
 
-constexpr double kStep = 0.05;      ///< of a ramp, that is driven as one arc [m]
-constexpr double kRoom = 0.9;       ///< share of the shorter of two arcs that the ramp between them may take
-constexpr double kShortArc = 0.15;  ///< arc that is left out for the sake of its neighbours' ramps [m]
-constexpr double kShorter = 0.6;    ///< each attempt's ramps, as share of those of the one before
-constexpr int kLeastSteps = 4;      ///< of a ramp
-constexpr int kAttempts = 12;       ///< the last one's ramps shift nothing by more than hundredths of a millimetre
+constexpr double kStep = 0.05;         ///< of a ramp, that is driven as one arc [m]
+constexpr double kRoom = 0.9;          ///< share of the shorter of two arcs that the ramp between them may take
+constexpr double kShortArc = 0.15;     ///< arc that is left out for the sake of its neighbours' ramps [m]
+constexpr double kShorter = 0.6;       ///< each attempt's ramps, as share of those of the one before
+constexpr int kLeastSteps = 4;         ///< of a ramp
+constexpr int kAttempts = 12;          ///< the last one's ramps shift nothing by more than hundredths of a millimetre
+constexpr std::size_t kPartArcs = 12;  ///< of a part of the way that gets its ramps apart from others; up to twice that
 constexpr int kIterations = 12;
 constexpr double kExact = 1e-9;        ///< error of the end, in metres and radians, that is rounding
 constexpr double kExactEnough = 1e-5;  ///< the same, that a curve may have
@@ -27,17 +30,26 @@ using Error = Eigen::Vector3d;
 class Ramps {
  public:
   /// @param arcs  that end about at `goal`.
-  Ramps(const Pose2d& from, const Pose2d& goal, double max_kappa, const Arcs& arcs)
-      : from_(from), goal_(goal), max_kappa_(max_kappa), arcs_(arcs), lengths_(arcs.size(), 0.0) {}
-
   /// @param slope  of the curvature on a ramp [1/m^2].
-  void setLengths(double slope, double share) {
-    for (std::size_t i = 0; i + 1 < arcs_.size(); ++i) {
-      if (gearOf(arcs_[i]) != gearOf(arcs_[i + 1])) continue;
-      const double wanted = std::abs(arcs_[i + 1].kappa - arcs_[i].kappa) / slope;
-      const double room = kRoom * std::min(std::abs(arcs_[i].length), std::abs(arcs_[i + 1].length));
-      lengths_[i] = share * std::min(wanted, room);
-    }
+  Ramps(const Pose2d& from, const Pose2d& goal, double max_kappa, double slope, const Arcs& arcs)
+      : from_(from), goal_(goal), max_kappa_(max_kappa), slope_(slope), arcs_(arcs), lengths_(arcs.size(), 0.0) {}
+
+  const Pose2d& from() const { return from_; }
+
+  /// How many ramps there may be; some have no length.
+  std::size_t size() const { return arcs_.empty() ? 0 : arcs_.size() - 1; }
+
+  void setLengths(double share) {
+    for (std::size_t i = 0; i < size(); ++i) lengths_[i] = share * wantedLength(i);
+  }
+
+  double length(std::size_t i) const { return lengths_[i]; }
+  void setLength(std::size_t i, double length) { lengths_[i] = length; }
+
+  double wantedLength(std::size_t i) const {
+    if (gearOf(arcs_[i]) != gearOf(arcs_[i + 1])) return 0.0;
+    const double wanted = std::abs(arcs_[i + 1].kappa - arcs_[i].kappa) / slope_;
+    return std::min(wanted, kRoom * std::min(std::abs(arcs_[i].length), std::abs(arcs_[i + 1].length)));
   }
 
   /// @return the error that is left at the end.
@@ -61,38 +73,63 @@ class Ramps {
   Arcs refined() const {
     Arcs result;
     for (std::size_t i = 0; i < arcs_.size(); ++i) {
-      const double gear = gearOf(arcs_[i]), before = i > 0 ? lengths_[i - 1] / 2.0 : 0.0, after = lengths_[i] / 2.0;
-      result.push_back({arcs_[i].length - gear * (before + after), arcs_[i].kappa});
-      if (lengths_[i] <= 0.0) continue;
-      const int steps = std::max(kLeastSteps, static_cast<int>(std::ceil(lengths_[i] / kStep)));
-      const double change = arcs_[i + 1].kappa - arcs_[i].kappa;
-      for (int k = 0; k < steps; ++k) {
-        result.push_back({gear * lengths_[i] / steps, arcs_[i].kappa + change * (k + 0.5) / steps});
-      }
+      forEachPiece(i, [&](const ArcSegment& piece) { result.push_back(piece); });
     }
     return result;
   }
 
  private:
-  Error endError() const {
-    const Pose2d end = endOf(from_, refined());
+  /// Calls `visit` with what is left of arc `i`, then with the pieces of the ramp after it.
+  template <class Visit>
+  void forEachPiece(std::size_t i, const Visit& visit) const {
+    const double gear = gearOf(arcs_[i]), before = i > 0 ? lengths_[i - 1] / 2.0 : 0.0, after = lengths_[i] / 2.0;
+    visit(ArcSegment{arcs_[i].length - gear * (before + after), arcs_[i].kappa});
+    if (lengths_[i] <= 0.0) return;
+    const int steps = std::max(kLeastSteps, static_cast<int>(std::ceil(lengths_[i] / kStep)));
+    const double change = arcs_[i + 1].kappa - arcs_[i].kappa;
+    for (int k = 0; k < steps; ++k) {
+      visit(ArcSegment{gear * lengths_[i] / steps, arcs_[i].kappa + change * (k + 0.5) / steps});
+    }
+  }
+
+  Pose2d after(std::size_t i, Pose2d pose) const {
+    forEachPiece(i, [&](const ArcSegment& piece) { pose = advance(pose, piece); });
+    return pose;
+  }
+
+  Error errorOf(const Pose2d& end) const {
     return {end.x - goal_.x, end.y - goal_.y, angleBetween(goal_.heading, end.heading)};
+  }
+
+  Error endError() const {
+    Pose2d pose = from_;
+    for (std::size_t i = 0; i < arcs_.size(); ++i) pose = after(i, pose);
+    return errorOf(pose);
   }
 
   /// The least change of lengths and curvatures that takes the error out, to first order.
   Eigen::VectorXd correction() {
-    const auto count = static_cast<Eigen::Index>(arcs_.size());
-    const Error error = endError();
-    Eigen::MatrixXd slopes(3, 2 * count);
-    Eigen::VectorXd weights(2 * count);
-    for (Eigen::Index i = 0; i < 2 * count; ++i) {
-      ArcSegment& arc = arcs_[static_cast<std::size_t>(i % count)];
-      double& value = i < count ? arc.length : arc.kappa;
-      const double old = value;
-      value += kProbe;
-      slopes.col(i) = (endError() - error) / kProbe;
-      value = old;
-      weights[i] = i < count ? std::abs(arc.length) : kKappaWeight * max_kappa_;
+    const std::size_t count = arcs_.size();
+    std::vector<Pose2d> begins{from_};
+    for (std::size_t i = 0; i < count; ++i) begins.push_back(after(i, begins.back()));
+    const Pose2d end = begins.back();
+    const Error error = errorOf(end);
+    Eigen::MatrixXd slopes(3, 2 * static_cast<Eigen::Index>(count));
+    Eigen::VectorXd weights(slopes.cols());
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t first = i > 0 ? i - 1 : 0;  // the ramp before the arc changes with its curvature
+      const Pose2d rest = relativeTo(begins[i + 1], end);
+      const auto probe = [&](double* value, double weight, std::size_t column) {
+        const double old = *value;
+        *value += kProbe;
+        Pose2d pose = begins[first];
+        for (std::size_t k = first; k <= i; ++k) pose = after(k, pose);
+        *value = old;
+        slopes.col(static_cast<Eigen::Index>(column)) = (errorOf(compose(pose, rest)) - error) / kProbe;
+        weights[static_cast<Eigen::Index>(column)] = weight;
+      };
+      probe(&arcs_[i].length, std::abs(arcs_[i].length), i);
+      probe(&arcs_[i].kappa, kKappaWeight * max_kappa_, count + i);
     }
     const Eigen::MatrixXd weighted = weights.asDiagonal() * slopes.transpose();
     return -weighted * (slopes * weighted).ldlt().solve(error);
@@ -112,9 +149,29 @@ class Ramps {
 
   Pose2d from_, goal_;
   double max_kappa_;
+  double slope_;
   Arcs arcs_;
   std::vector<double> lengths_;  ///< of the ramp after each arc [m]
 };
+
+/// The bent ramps as arcs; nullopt where they miss the goal or are not allowed.
+std::optional<Arcs> allowed(Ramps* ramps, const CurveCheck& is_allowed) {
+  if (ramps->bendBack() > kExactEnough) return std::nullopt;
+  Arcs arcs = ramps->refined();
+  if (!is_allowed(ramps->from(), arcs)) return std::nullopt;
+  return arcs;
+}
+
+/// One tight place must not make all ramps short: each is made as long as it should be, where that is allowed.
+Arcs grown(Ramps ramps, Arcs best, const CurveCheck& is_allowed) {
+  for (std::size_t i = 0; i < ramps.size(); ++i) {
+    if (ramps.wantedLength(i) <= ramps.length(i)) continue;
+    Ramps longer = ramps;
+    longer.setLength(i, ramps.wantedLength(i));
+    if (auto result = allowed(&longer, is_allowed)) ramps = longer, best = *std::move(result);
+  }
+  return best;
+}
 
 /// Without arcs so short that they would leave no room for ramps; the longest between two gear changes always stays.
 Arcs withoutShortArcs(const Arcs& arcs, double shortest) {
@@ -132,6 +189,34 @@ Arcs withoutShortArcs(const Arcs& arcs, double shortest) {
   return merged(kept);
 }
 
+/// Parts that end at gear changes or, where there is none for long, within an arc: what bends one back to its end does
+/// not reach into the others, and the work grows with the way only.
+std::vector<Arcs> partsOf(const Arcs& arcs) {
+  std::vector<Arcs> parts(1);
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    parts.back().push_back(arcs[i]);
+    if (i + 1 == arcs.size() || parts.back().size() < kPartArcs) continue;
+    if (gearOf(arcs[i]) != gearOf(arcs[i + 1])) {
+      parts.emplace_back();
+    } else if (parts.back().size() >= 2 * kPartArcs) {
+      parts.back().back().length /= 2.0;
+      parts.push_back({parts.back().back()});
+    }
+  }
+  return parts;
+}
+
+Arcs withRamps(const Pose2d& from, const Arcs& arcs, double max_kappa, double slope, const CurveCheck& is_allowed) {
+  const Pose2d goal = endOf(from, arcs);
+  double share = 1.0;
+  for (int attempt = 1; attempt <= kAttempts; ++attempt, share *= kShorter) {
+    Ramps ramps(from, goal, max_kappa, slope, withoutShortArcs(arcs, share * kShortArc));
+    ramps.setLengths(share);
+    if (auto result = allowed(&ramps, is_allowed)) return share < 1.0 ? grown(ramps, *result, is_allowed) : *result;
+  }
+  return arcs;
+}
+
 /// d(steering angle)/d(distance) [rad/m].
 double steeringSlope(const VehicleParams& vehicle, const ReferencePoint& a, const ReferencePoint& b) {
   const double turned = std::atan(vehicle.wheelbase * b.kappa) - std::atan(vehicle.wheelbase * a.kappa);
@@ -141,18 +226,16 @@ double steeringSlope(const VehicleParams& vehicle, const ReferencePoint& a, cons
 }  // namespace
 
 Arcs withSteeringRamps(const Pose2d& from, const Arcs& arcs, const VehicleParams& vehicle, double speed,
-                       const std::function<bool(const Arcs&)>& isAllowed) {
+                       const CurveCheck& is_allowed) {
   const double slope = vehicle.max_steering_rate / (speed * vehicle.wheelbase);
-  double share = 1.0;
-  for (int attempt = 1; attempt <= kAttempts; ++attempt, share *= kShorter) {
-    Ramps ramps(from, endOf(from, arcs), vehicle.maxKappa(), withoutShortArcs(arcs, share * kShortArc));
-    ramps.setLengths(slope, share);
-    const double error = ramps.bendBack();
-    if (error > kExactEnough) continue;
-    Arcs result = ramps.refined();
-    if (isAllowed(result)) return result;
+  Arcs result;
+  Pose2d begin = from;
+  for (const Arcs& part : partsOf(arcs)) {
+    const Arcs ramped = withRamps(begin, part, vehicle.maxKappa(), slope, is_allowed);
+    result.insert(result.end(), ramped.begin(), ramped.end());
+    begin = endOf(begin, part);
   }
-  return arcs;
+  return result;
 }
 
 void limitSteering(const VehicleParams& vehicle, Path* path) {

@@ -363,6 +363,24 @@ double FootprintIndex::roomAt(const Point2d& point) const {
   return states_[at] == State::kFree ? static_cast<double>(near_[at]) : 0.0;
 }
 
+double FootprintIndex::roomBetweenCells(const Point2d& point) const {
+  const Point2d low = cellCentre(0, 0);
+  const Point2d at = (point - low) / cell_size_;
+  const double column = std::floor(at.x()), row = std::floor(at.y());
+  if (!(column >= 0.0 && row >= 0.0 && column + 1.0 < static_cast<double>(columns_) &&
+        row + 1.0 < static_cast<double>(rows_))) {
+    return roomAt(point);
+  }
+  const auto here = static_cast<std::size_t>(static_cast<long>(row) * columns_ + static_cast<long>(column));
+  const auto room = [this](std::size_t cell) {
+    return states_[cell] == State::kFree ? static_cast<double>(near_[cell]) : 0.0;
+  };
+  const double x = at.x() - column, y = at.y() - row;
+  const auto above = here + static_cast<std::size_t>(columns_);
+  return (1.0 - y) * ((1.0 - x) * room(here) + x * room(here + 1)) +
+         y * ((1.0 - x) * room(above) + x * room(above + 1));
+}
+
 Point2d FootprintIndex::snapped(const Point2d& point) const {
   if (columns_ == 0) return point;
   const Point2d corner = extent_.min - Point2d(reach_, reach_);

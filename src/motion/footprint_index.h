@@ -119,6 +119,10 @@ class FootprintIndex {
   /// At most the distance from the middle of the point's cell to the nearest obstacle; 0 in one [m].
   double roomAt(const Point2d& point) const;
 
+  /// Distance from the point to the nearest obstacle, interpolated between the middles of the cells around it: exact
+  /// beside a straight edge within the footprint's reach, else rather too small; 0 in an obstacle [m].
+  double roomBetweenCells(const Point2d& point) const;
+
   /// Side of a cell [m], and the corner of the cell that holds `point`: maps made of the same cells get the sharpest
   /// answers.
   double cellSize() const { return cell_size_; }

@@ -63,20 +63,25 @@ class Collector {
   template <std::size_t kSize>
   void add(const std::array<Steer, kSize>& steer, const std::array<double, kSize>& lengths, int flip, int mirror) {
     SteeringWord word;
-    int gear = query_.junctions.before, changes = 0;
-    double cost = 0.0;
+    const Junctions& junctions = query_.junctions;
+    int gear = junctions.before, changes = 0;
+    double cost = 0.0, kappa = junctions.kappa_before;
     for (std::size_t i = 0; i < kSize; ++i) {
       const double length = lengths[i] * flip * query_.radius;
       if (std::abs(length) < kShortest) continue;
       const int now = length > 0.0 ? 1 : -1;
+      const ArcSegment arc{length, steer[i] * mirror / query_.radius};
+      if (gear == now) cost += query_.cost.ofSteering(kappa, arc.kappa);
+      kappa = arc.kappa;
       changes += gear == -now;
       word.gear_changes += word.size > 0 && gear == -now;
       gear = now;
       word.length += std::abs(length);
       cost += query_.cost.ofArc(length);
-      word.arcs[word.size++] = {length, steer[i] * mirror / query_.radius};
+      word.arcs[word.size++] = arc;
     }
-    changes += gear != 0 && gear == -query_.junctions.after;
+    changes += gear != 0 && gear == -junctions.after;
+    if (gear != 0 && gear == junctions.after) cost += query_.cost.ofSteering(kappa, junctions.kappa_after);
     word.cost = cost + changes * query_.cost.gear_change_cost;
     if (word.cost <= query_.max_cost && words_->size() < WordSet::kCapacity) words_->add(word);
   }

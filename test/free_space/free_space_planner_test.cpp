@@ -137,7 +137,6 @@ TEST(FreeSpacePlanner, ImprovesThePathWithMoreWork) {
   params.improve_iterations = 20'000;
   const FreeSpacePlan result = planned(world, params);
   EXPECT_LE(result.cost, result.first_path_cost);
-  EXPECT_NEAR(result.cost, result.length + 3.0 * result.gear_changes, 1e-6);
   params.planner = "hybrid_astar";
   EXPECT_LT(result.cost, planned(world, params).cost);
 }

@@ -98,6 +98,7 @@ class ManoeuvresTest(unittest.TestCase):
         goal = pose(-8.0, 9.0, math.pi / 2.0)
         answer = self.free_space(goal, non_drivable_roi=[box(-2.0, 8.0, 1.5)])
         self.assertGreater(answer.report.min_clearance, 0.0)
+        self.assertGreater(answer.report.wheel_turns, 0.0)
         self.drive("courtyard", answer)
         self.assert_stands_at(goal, "courtyard/base_link")
 
@@ -147,6 +148,7 @@ class ManoeuvresTest(unittest.TestCase):
                 self.assertEqual(answer.status.status, CommandStatus.FINISHED, support.describe(answer.status))
                 self.assertGreater(answer.report.gear_changes + answer.report.path_length, 0.0)
                 self.assertGreater(answer.report.min_clearance, 0.0)
+                self.assertGreater(answer.report.near_length, 0.0, "a space is hardly wider than the vehicle")
 
     def test_parks_and_leaves_the_space_again(self):
         self.drive("apollo", self.valet("n_out_5"))

@@ -7,7 +7,9 @@
 namespace external_command {
 
 /// How a free-space path is searched for, and what makes it good: the cheapest path is the one with the smallest
-/// `forward length + reverse_factor * reverse length + gear_change_cost * gear changes`.
+/// `forward length + reverse_factor * reverse length + gear_change_cost * gear changes + steering_cost * turns of the
+/// wheels between them + closeness_cost * length near obstacles`. The search for a first path knows nothing of the last
+/// two; the improvement does.
 struct FreeSpaceParams {
   std::string planner = "portfolio";    ///< one of freeSpacePlanners()
   double margin = 0.10;                 ///< distance the footprint keeps to every obstacle and border, but where
@@ -23,11 +25,17 @@ struct FreeSpaceParams {
 
   double gear_change_cost = 3.0;  ///< price of a gear change, as length, not negative [m]
   double reverse_factor = 2.0;    ///< price of a metre in reverse, as length forward, [1, 100]
-  double spacing = 0.05;          ///< between points of the result, at most, [0.01, 1] [m]
+  double steering_cost = 0.2;   ///< price of turning the wheels from straight on to full lock between gear changes, as
+                                ///< length, in [0, 100] [m]
+  double closeness_cost = 0.3;  ///< price of a metre beside an obstacle at the margin, as length on top of it; less
+                                ///< farther away, in [0, 100]
+  double closeness_distance = 0.5;  ///< beyond the margin; from there on it costs nothing, [0.01, 2] [m]
+  double spacing = 0.05;            ///< between points of the result, at most, [0.01, 1] [m]
 
   /// Between gear changes the curvature changes gradually, and the points' speed limits let the steering keep up. Where
-  /// there is no room for ramps as long as manoeuvre_speed asks for, they are shorter and the limits lower.
-  bool continuous_curvature = false;
+  /// there is no room for ramps as long as manoeuvre_speed asks for, they are shorter and the limits lower. False: the
+  /// curvature jumps from arc to arc, and speeds do not mind it.
+  bool continuous_curvature = true;
   double manoeuvre_speed = 0.5;  ///< at which the steering keeps up where there is room, (0, 5] [m/s]
 
   /// @throws InvalidParameter  a value is out of range: the text names key, value and range.

@@ -19,6 +19,8 @@ struct FreeSpacePlan {
   double length = 0.0;          ///< driven, in both gears [m]
   double reverse_length = 0.0;  ///< of it in reverse [m]
   unsigned gear_changes = 0;
+  double wheel_turns = 0.0;        ///< between gear changes; 1 from straight on to full lock
+  double near_length = 0.0;        ///< beside obstacles: a metre at the margin counts whole, farther away less [m]
   double min_clearance = 0.0;      ///< of the bare footprint to obstacles and borders, at most 10 m [m]
   double planning_time = 0.0;      ///< wall clock [s]
   double first_path_time = 0.0;    ///< until the first valid path was there [s]

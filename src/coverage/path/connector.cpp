@@ -162,6 +162,7 @@ std::optional<Curve> Connector::searchWithin(const std::optional<BoundingBox>& b
   params.improve_budget = 0.0;
   params.gear_change_cost = std::min(field_.gearPrice(), kMostGearPrice);
   params.reverse_factor = 1.0;  // a metre swept is a metre, in either gear
+  params.continuous_curvature = false;
   params.spacing = 0.25;
   try {
     const FreeSpacePlan result =

@@ -23,11 +23,17 @@ constexpr double kWorthImproving = 1.1;     ///< times the best cost: a fresh pa
 
 }  // namespace
 
-AnytimeImprover::AnytimeImprover(const Scene& scene, const Query& query, const BoundingBox& area, std::uint64_t seed)
-    : scene_(scene), query_(query), area_(area), random_(seed), improver_(scene, query, random_.bits()) {}
+AnytimeImprover::AnytimeImprover(const Scene& scene, const DrivingCost& cost, const Query& query,
+                                 const BoundingBox& area, std::uint64_t seed)
+    : scene_(scene),
+      cost_(cost),
+      query_(query),
+      area_(area),
+      random_(seed),
+      improver_(scene, cost, query, random_.bits()) {}
 
 Arcs AnytimeImprover::improve(const Arcs& arcs, WorkBudget* budget) {
-  const auto costs = [&](const Arcs& path) { return costOf(path, scene_.cost, query_.gear_after); };
+  const auto costs = [&](const Arcs& path) { return cost_.of(query_.start, path, query_.gear_after); };
   Arcs best = improver_.improve(arcs, kFirstPatience, budget);
   if (budget->isUsedUp() || best.empty()) return best;
   TwoWaySearch search(scene_, query_, area_);
@@ -52,7 +58,7 @@ Arcs AnytimeImprover::improve(const Arcs& arcs, WorkBudget* budget) {
 
 /// The path with a part of it replaced by a cheaper one, or as it was.
 Arcs AnytimeImprover::windowSearched(const Arcs& arcs, WorkBudget* budget) {
-  const Track track(query_, arcs, scene_.cost);
+  const Track track(query_, arcs, cost_);
   const double length = std::min(random_.uniform(0.5, 1.5) * kWindow * scene_.radius, track.length());
   const double begin = random_.uniform(0.0, track.length() - length);
   const Track::Place from = track.arriving(begin), to = track.leaving(begin + length);
@@ -64,7 +70,7 @@ Arcs AnytimeImprover::windowSearched(const Arcs& arcs, WorkBudget* budget) {
   const TwoWaySearch::Limits limits{kWindowSteps, to.cost - from.cost, [&] { return !budget->spend(); }};
   if (search.run(variant, limits) != TwoWaySearch::Outcome::kFound) return arcs;
   const Arcs other = track.spliced(from, search.arcs(), to);
-  return costOf(other, scene_.cost, query_.gear_after) < track.cost() ? other : arcs;
+  return cost_.of(query_.start, other, query_.gear_after) < track.cost() ? other : arcs;
 }
 
 }  // namespace external_command

@@ -12,7 +12,8 @@ namespace external_command {
 /// with other settings for a path of another shape, of all of the way or, where that is long, of a part of it.
 class AnytimeImprover {
  public:
-  AnytimeImprover(const Scene& scene, const Query& query, const BoundingBox& area, std::uint64_t seed);
+  AnytimeImprover(const Scene& scene, const DrivingCost& cost, const Query& query, const BoundingBox& area,
+                  std::uint64_t seed);
 
   /// @param arcs  a free path for the query.
   Arcs improve(const Arcs& arcs, WorkBudget* budget);
@@ -21,6 +22,7 @@ class AnytimeImprover {
   Arcs windowSearched(const Arcs& arcs, WorkBudget* budget);
 
   Scene scene_;
+  DrivingCost cost_;
   Query query_;
   BoundingBox area_;
   Random random_;

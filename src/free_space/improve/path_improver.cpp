@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace external_command {
 
@@ -16,18 +17,20 @@ constexpr double kShortcuts = 0.2;       ///< part of the trials
 
 }  // namespace
 
-PathImprover::PathImprover(const Scene& scene, const Query& query, std::uint64_t seed)
-    : scene_(scene), query_(query), random_(seed) {}
+PathImprover::PathImprover(const Scene& scene, const DrivingCost& cost, const Query& query, std::uint64_t seed)
+    : scene_(scene), cost_(cost), query_(query), random_(seed) {}
 
 Arcs PathImprover::improve(const Arcs& arcs, std::size_t patience, WorkBudget* budget) {
   if (arcs.empty()) return arcs;
-  Track track(query_, arcs, scene_.cost);
+  Track track(query_, arcs, cost_);
   double milestone = track.cost();
   for (std::size_t fruitless = 0; fruitless < patience && budget->spend(); ++fruitless) {
     const std::optional<Arcs> better = tryOnce(track);
     if (!better) continue;
     if (better->empty()) return *better;
-    track = Track(query_, *better, scene_.cost);
+    Track next(query_, *better, cost_);
+    if (next.cost() > track.cost() - kWorthIt / 2.0) continue;  // parts of arcs were charged for closeness by guess
+    track = std::move(next);
     if (track.cost() < milestone * (1.0 - kProgress)) fruitless = 0, milestone = track.cost();
   }
   return track.arcs();
@@ -53,10 +56,10 @@ std::optional<Arcs> PathImprover::tryShortcut(const Track& track, const Track::P
   if (from.arc == to.arc) return std::nullopt;
   WordSet words;
   const double budget = to.cost - from.cost - kWorthIt;
-  reedsSheppWords(from.pose, to.pose, {scene_.radius, scene_.cost, {from.gear, to.gear}, budget}, &words);
+  reedsSheppWords(from.pose, to.pose, wordQuery(from.gear, from.kappa, to, budget), &words);
   while (words.size() > 0) {
     const SteeringWord word = words.takeCheapest();
-    if (!isDrivable(from.pose, word)) continue;
+    if (costOf(from.pose, word) > budget || !isDrivable(from.pose, word)) continue;
     Arcs middle;
     append(word, &middle);
     return track.spliced(from, middle, to);
@@ -68,18 +71,19 @@ std::optional<Arcs> PathImprover::tryVia(const Track& track, const Track::Place&
                                          const Track::Place& to) const {
   const double budget = to.cost - from.cost - kWorthIt;
   WordSet first_words, second_words;
-  reedsSheppWords(from.pose, via, {scene_.radius, scene_.cost, {from.gear, 0}, budget}, &first_words);
+  reedsSheppWords(from.pose, via, {scene_.radius, cost_.ofArcs(), {from.gear, 0, from.kappa, 0.0}, budget},
+                  &first_words);
   if (first_words.size() == 0 || !scene_.index.isFree(via)) return std::nullopt;
   while (first_words.size() > 0) {
     const SteeringWord first = first_words.takeCheapest();
     if (first.size == 0) continue;
-    const int gear = gearOf(first.arcs[static_cast<std::size_t>(first.size) - 1]);
-    const double left = budget - first.cost;
-    reedsSheppWords(via, to.pose, {scene_.radius, scene_.cost, {gear, to.gear}, left}, &second_words);
+    const ArcSegment& last = first.arcs[static_cast<std::size_t>(first.size) - 1];
+    const double left = budget - costOf(from.pose, first);
+    reedsSheppWords(via, to.pose, wordQuery(gearOf(last), last.kappa, to, left), &second_words);
     if (second_words.size() == 0 || !isDrivable(from.pose, first)) continue;
     while (second_words.size() > 0) {
       const SteeringWord second = second_words.takeCheapest();
-      if (!isDrivable(via, second)) continue;
+      if (costOf(via, second) > left || !isDrivable(via, second)) continue;
       Arcs middle;
       append(first, &middle);
       append(second, &middle);
@@ -87,6 +91,14 @@ std::optional<Arcs> PathImprover::tryVia(const Track& track, const Track::Place&
     }
   }
   return std::nullopt;
+}
+
+double PathImprover::costOf(const Pose2d& from, const SteeringWord& word) const {
+  return word.cost + cost_.ofCloseness(from, word);
+}
+
+WordQuery PathImprover::wordQuery(int gear, double kappa, const Track::Place& to, double budget) const {
+  return {scene_.radius, cost_.ofArcs(), {gear, to.gear, kappa, to.kappa}, budget};
 }
 
 bool PathImprover::isDrivable(const Pose2d& from, const SteeringWord& word) const {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "free_space/manoeuvre.h"
+#include "free_space/driving_cost.h"
 #include "free_space/random.h"
 #include "free_space/stop_condition.h"
 #include "track.h"
@@ -16,7 +16,7 @@ namespace external_command {
 /// near the path. Hill climbing with random steps of all sizes; the path keeps the margin at every moment.
 class PathImprover {
  public:
-  PathImprover(const Scene& scene, const Query& query, std::uint64_t seed);
+  PathImprover(const Scene& scene, const DrivingCost& cost, const Query& query, std::uint64_t seed);
 
   /// @param arcs      a free path for the query.
   /// @param patience  ends after this many trials one after the other that win less than 0.1 % together.
@@ -24,12 +24,15 @@ class PathImprover {
 
  private:
   std::optional<Arcs> tryOnce(const Track& track);
+  WordQuery wordQuery(int gear, double kappa, const Track::Place& to, double budget) const;
+  double costOf(const Pose2d& from, const SteeringWord& word) const;
   std::optional<Arcs> tryShortcut(const Track& track, const Track::Place& from, const Track::Place& to) const;
   std::optional<Arcs> tryVia(const Track& track, const Track::Place& from, const Pose2d& via,
                              const Track::Place& to) const;
   bool isDrivable(const Pose2d& from, const SteeringWord& word) const;
 
   Scene scene_;
+  DrivingCost cost_;
   Query query_;
   Random random_;
 };

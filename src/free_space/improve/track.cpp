@@ -6,20 +6,24 @@
 
 namespace external_command {
 
-Track::Track(const Query& query, const Arcs& arcs, const CostModel& cost)
-    : cost_model_(cost), arcs_(arcs), gear_after_(query.gear_after), total_cost_(costOf(arcs, cost, query.gear_after)) {
+Track::Track(const Query& query, const Arcs& arcs, const DrivingCost& cost)
+    : arcs_(arcs), gear_after_(query.gear_after) {
+  const CostModel& model = cost.ofArcs();
   Pose2d pose = query.start;
   double s = 0.0, so_far = 0.0;
   for (std::size_t i = 0; i < arcs_.size(); ++i) {
-    if (i > 0 && gearOf(arcs_[i]) != gearOf(arcs_[i - 1])) so_far += cost.gear_change_cost;
+    if (i > 0) so_far += model.between(arcs_[i - 1], arcs_[i]);
     begins_.push_back(pose);
     s_.push_back(s);
     costs_.push_back(so_far);
+    driving_.push_back(model.ofArc(arcs_[i].length) + cost.ofCloseness(pose, arcs_[i]));
     pose = advance(pose, arcs_[i]);
     s += std::abs(arcs_[i].length);
-    so_far += cost.ofArc(arcs_[i].length);
+    so_far += driving_.back();
   }
   s_.push_back(s);
+  if (gearOf(arcs_.back()) == -gear_after_) so_far += model.gear_change_cost;
+  costs_.push_back(so_far);
 }
 
 std::size_t Track::arcAt(double s) const {
@@ -29,20 +33,20 @@ std::size_t Track::arcAt(double s) const {
 
 Track::Place Track::placeAt(std::size_t arc, double s) const {
   const ArcSegment& here = arcs_[arc];
-  const double driven = std::clamp(s - s_[arc], 0.0, std::abs(here.length));
-  const double cost = costs_[arc] + cost_model_.ofArc(std::copysign(driven, here.length));
-  return {advance(begins_[arc], here, driven), gearOf(here), cost, arc, s_[arc] + driven};
+  const double length = std::abs(here.length), driven = std::clamp(s - s_[arc], 0.0, length);
+  const double cost = costs_[arc] + (length > 0.0 ? driven / length * driving_[arc] : 0.0);
+  return {advance(begins_[arc], here, driven), gearOf(here), here.kappa, cost, arc, s_[arc] + driven};
 }
 
 Track::Place Track::arriving(double s) const {
-  if (s <= 0.0) return {begins_[0], 0, 0.0, 0, 0.0};
+  if (s <= 0.0) return {begins_[0], 0, 0.0, 0.0, 0, 0.0};
   const std::size_t arc = arcAt(s);
   return placeAt(arc > 0 && s <= s_[arc] ? arc - 1 : arc, s);
 }
 
 Track::Place Track::leaving(double s) const {
   Place place = placeAt(arcAt(s), s);
-  if (s >= length()) place.gear = gear_after_, place.cost = total_cost_;
+  if (s >= length()) place.gear = gear_after_, place.cost = cost();
   return place;
 }
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "free_space/manoeuvre.h"
+#include "free_space/driving_cost.h"
 
 namespace external_command {
 
@@ -12,13 +12,14 @@ namespace external_command {
 class Track {
  public:
   /// @param arcs  not empty.
-  Track(const Query& query, const Arcs& arcs, const CostModel& cost);
+  Track(const Query& query, const Arcs& arcs, const DrivingCost& cost);
 
   /// A place on the track.
   struct Place {
     Pose2d pose;
     int gear;         ///< in which the vehicle gets here, or goes on
-    double cost;      ///< up to here [m]
+    double kappa;     ///< of the arc [1/m]
+    double cost;      ///< up to here, that of closeness spread evenly over each arc [m]
     std::size_t arc;  ///< on which it lies
     double s;         ///< [m]
   };
@@ -26,12 +27,13 @@ class Track {
   /// The place at `s`; at a joint that of the arc which ends there.
   Place arriving(double s) const;
 
-  /// The place at `s`; at a joint that of the arc which begins there, with the gear change at the joint in its cost.
+  /// The place at `s`; at a joint that of the arc which begins there, with gear change and steering at the joint in its
+  /// cost.
   Place leaving(double s) const;
 
   const Arcs& arcs() const { return arcs_; }
   double length() const { return s_.back(); }
-  double cost() const { return total_cost_; }
+  double cost() const { return costs_.back(); }
 
   /// The arcs with everything between the two places replaced by `middle`.
   Arcs spliced(const Place& from, const Arcs& middle, const Place& to) const;
@@ -40,13 +42,12 @@ class Track {
   std::size_t arcAt(double s) const;
   Place placeAt(std::size_t arc, double s) const;
 
-  CostModel cost_model_;
   Arcs arcs_;
   int gear_after_;
   std::vector<Pose2d> begins_;
-  std::vector<double> s_;      ///< at the begin of each arc, and at the end
-  std::vector<double> costs_;  ///< at the begin of each arc, with the gear change there
-  double total_cost_;
+  std::vector<double> s_;        ///< at the begin of each arc, and at the end
+  std::vector<double> driving_;  ///< cost of each arc alone
+  std::vector<double> costs_;    ///< at the begin of each arc, with gear change and steering there; and at the end
 };
 
 }  // namespace external_command

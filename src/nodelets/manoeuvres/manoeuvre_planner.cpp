@@ -72,6 +72,9 @@ FreeSpaceParams readFreeSpaceParams(const ParameterReader& reader) {
   params.threads = readCount(reader, "threads", 1, params.threads);
   reader.read("gear_change_cost", &params.gear_change_cost);
   reader.read("reverse_factor", &params.reverse_factor);
+  reader.read("steering_cost", &params.steering_cost);
+  reader.read("closeness_cost", &params.closeness_cost);
+  reader.read("closeness_distance", &params.closeness_distance);
   reader.read("path_spacing", &params.spacing);
   reader.read("continuous_curvature", &params.continuous_curvature);
   reader.read("manoeuvre_speed", &params.manoeuvre_speed);
@@ -206,6 +209,8 @@ void appendManoeuvre(const FreeSpacePlan& manoeuvre, MotionPlan* plan) {
   plan->report.min_clearance = plan->report.min_clearance > 0.0
                                    ? std::min(plan->report.min_clearance, manoeuvre.min_clearance)
                                    : manoeuvre.min_clearance;
+  plan->report.wheel_turns += manoeuvre.wheel_turns;
+  plan->report.near_length += manoeuvre.near_length;
   plan->report.warnings.insert(plan->report.warnings.end(), manoeuvre.warnings.begin(), manoeuvre.warnings.end());
   plan->scene.with_footprints = true;
 }

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "driving_cost.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace external_command {
+
+namespace {
+
+constexpr double kStep = 0.4;  ///< between two looks at the obstacles, at most [m]
+
+CostModel withSteering(CostModel cost, double price) {
+  cost.steering_price = price;
+  return cost;
+}
+
+}  // namespace
+
+DrivingCost::DrivingCost(const Scene& scene, double steering_cost, const ClosenessPrice& closeness)
+    : index_(scene.index),
+      of_arcs_(withSteering(scene.cost, steering_cost * scene.radius)),
+      closeness_(closeness),
+      at_margin_(scene.index.box().half_width + scene.index.margin()) {}
+
+double DrivingCost::ofCloseness(const Pose2d& from, const ArcSegment& arc) const {
+  return closeness_.price > 0.0 ? closeness_.price * nearLength(from, &arc, &arc + 1) : 0.0;
+}
+
+double DrivingCost::ofCloseness(const Pose2d& from, const SteeringWord& word) const {
+  const ArcSegment* const arcs = word.arcs.data();
+  return closeness_.price > 0.0 ? closeness_.price * nearLength(from, arcs, arcs + word.size) : 0.0;
+}
+
+double DrivingCost::of(const Pose2d& from, const Arcs& arcs, int gear_after) const {
+  return costOf(arcs, of_arcs_, gear_after) + closeness_.price * nearLength(from, arcs);
+}
+
+double DrivingCost::nearLength(const Pose2d& from, const Arcs& arcs) const {
+  return nearLength(from, arcs.data(), arcs.data() + arcs.size());
+}
+
+double DrivingCost::nearLength(const Pose2d& from, const ArcSegment* begin, const ArcSegment* end) const {
+  double sum = 0.0;
+  Pose2d pose = from;
+  for (const ArcSegment* arc = begin; arc != end; pose = advance(pose, *arc), ++arc) {
+    const double length = std::abs(arc->length);
+    const int steps = static_cast<int>(std::ceil(length / kStep));
+    for (int i = 0; i < steps; ++i)
+      sum += closenessAt(advance(pose, *arc, (i + 0.5) / steps * length)) * length / steps;
+  }
+  return sum;
+}
+
+/// From 1 at the margin, or nearer, to 0: of what is beside the vehicle. What is ahead of it, it comes to on purpose.
+double DrivingCost::closenessAt(const Pose2d& pose) const {
+  const Point2d middle = pose.position() + index_.box().centre * unitVector(pose.heading);
+  return std::clamp(1.0 - (index_.roomBetweenCells(middle) - at_margin_) / closeness_.distance, 0.0, 1.0);
+}
+
+}  // namespace external_command
