@@ -20,7 +20,7 @@ from external_command import msg
 from external_command.srv import Action, FreeSpace, LaneFollow, PathFollow, ZoneCover
 from goals import ACTIONS, ENDS, BareClient, large_zone, name_of
 from localization import Localization
-from processes import Process
+from processes import MOST_MEMORY, Process, most_resident
 
 sys.path.append(os.path.join(rospkg.RosPack().get_path("external_command"), "scripts", "lib"))
 import fuzz_bytes  # noqa: E402  what scripts/fuzz sends
@@ -30,7 +30,6 @@ BASE = NAMESPACE + "/external_command/"
 PROCESSORS = ["external_command/%sCommandProcessor" % name for name in (
     "Action", "FreeSpace", "LaneFollow", "PathFollow", "PreciseParking", "ValetParking", "ZoneCover")]
 SLOW = {"zone_cover_command_processor": {"coverage": {"time_budget": 60.0}}}
-MOST_MEMORY = 100.0  # beyond that at the beginning [MB]
 LATEST_STOP = 2.0  # on a machine that others use too [s]
 MOST_LISTED = 160  # goals in one status message
 
@@ -45,12 +44,6 @@ def dry_path():
 
 def planned_for_long():
     return large_zone(dry_run=True)
-
-
-def resident(pid):
-    """[MB]"""
-    with open("/proc/%d/status" % pid, encoding="ascii") as file:
-        return next(int(line.split()[1]) / 1000.0 for line in file if line.startswith("VmHWM:"))
 
 
 class HostileGoalsTest(unittest.TestCase):
@@ -181,7 +174,7 @@ class HostileGoalsTest(unittest.TestCase):
         with component({"zone_cover_command_processor": {"actions": True}}) as started:
             clients = {name: self.client(name) for name in ACTIONS}
             self.assert_works(clients["path_follow"], "first")
-            before = resident(started.pid)
+            before = most_resident(started.pid)
             for name, client in clients.items():
                 goal = client.goal("lies", fuzz_bytes.example(name))
                 whole = fuzz_bytes.serialized(goal)
@@ -204,7 +197,7 @@ class HostileGoalsTest(unittest.TestCase):
                                    "a message on " + BASE in started.output, "the loss is told of")
                 publisher.unregister()
             self.assert_works(clients["path_follow"], "last")
-            self.assertLess(resident(started.pid) - before, MOST_MEMORY)
+            self.assertLess(most_resident(started.pid) - before, MOST_MEMORY)
             self.assert_stops(started)
 
     def test_goals_that_are_too_large_are_rejected_and_say_why(self):
@@ -251,7 +244,7 @@ class HostileGoalsTest(unittest.TestCase):
         with component() as started:
             client = self.client("path_follow")
             self.assert_works(client, "first")
-            before = resident(started.pid)
+            before = most_resident(started.pid)
             command = dry_path()
             command.target_speed = -1.0
             end = time.monotonic() + 5.0
@@ -266,7 +259,7 @@ class HostileGoalsTest(unittest.TestCase):
                                "all is over")
             self.assertLess(max(len(message.status_list) for message in client.states.messages), MOST_LISTED)
             self.assert_works(client, "last")
-            self.assertLess(resident(started.pid) - before, MOST_MEMORY)
+            self.assertLess(most_resident(started.pid) - before, MOST_MEMORY)
 
     def test_more_goals_than_can_be_planned_are_told_so(self):
         with component() as started:

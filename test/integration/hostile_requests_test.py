@@ -18,6 +18,7 @@ from external_command import msg
 from external_command.client import SERVICES
 from external_command.srv import (Action, CancelCommand, FindMapObjects, FreeSpace, GetCommandStatus, GetCurrentCommand,
                                   LaneFollow, PathFollow, Speed, ZoneCover)
+from processes import MOST_MEMORY, most_resident
 
 sys.path.append(os.path.join(rospkg.RosPack().get_path("external_command"), "scripts", "lib"))
 import fuzz_bytes  # noqa: E402  what scripts/fuzz sends
@@ -26,14 +27,6 @@ NAMESPACE = "/hostile_requests_test"
 PROCESSORS = ["external_command/%sCommandProcessor" % name for name in (
     "Action", "Chassis", "FreeSpace", "LaneFollow", "PathFollow", "PreciseParking", "Speed", "ValetParking",
     "ZoneCover")]
-SHADOWS = 4.0 if "TSAN_OPTIONS" in os.environ else 1.0  # ThreadSanitizer keeps some of all memory that is touched
-MOST_MEMORY = 100.0 * SHADOWS  # beyond that at the beginning [MB]
-
-
-def resident(pid):
-    """[MB]"""
-    with open("/proc/%d/status" % pid, encoding="ascii") as file:
-        return next(int(line.split()[1]) / 1000.0 for line in file if line.startswith("VmHWM:"))
 
 
 def component(others=None, **parameters):
@@ -63,7 +56,7 @@ class HostileRequestsTest(unittest.TestCase):
     def test_answers_requests_that_state_more_than_they_hold_and_takes_no_memory_for_them(self):
         with component() as started:
             self.assert_stops(started)
-            before = resident(started.pid)
+            before = most_resident(started.pid)
             for service, (service_class, _) in sorted(SERVICES.items()):
                 name = NAMESPACE + "/external_command/" + service
                 support.service(name, service_class)
@@ -74,7 +67,7 @@ class HostileRequestsTest(unittest.TestCase):
                     refused += "is said to have" in status.message
                 caller.close()
                 self.assertGreater(refused, 0, service)
-            self.assertLess(resident(started.pid) - before, MOST_MEMORY)
+            self.assertLess(most_resident(started.pid) - before, MOST_MEMORY)
             self.assert_stops(started)
 
     def test_answers_damaged_questions_about_commands_and_map(self):
@@ -98,7 +91,7 @@ class HostileRequestsTest(unittest.TestCase):
                   "canbus/chassis": msg.Chassis}
         with component() as started:
             self.assert_stops(started)
-            before = resident(started.pid)
+            before = most_resident(started.pid)
             for name, message_class in topics.items():
                 raw = fuzz_bytes.raw_class(message_class)
                 publisher = rospy.Publisher(NAMESPACE + "/" + name, raw, queue_size=10)
@@ -107,7 +100,7 @@ class HostileRequestsTest(unittest.TestCase):
                     publisher.publish(raw(data=b"\0" * 12 + struct.pack("<I", 2000000000)))
                 support.wait_until(lambda: "a message on %s/" % NAMESPACE in started.output, "the loss is told of")
                 publisher.unregister()
-            self.assertLess(resident(started.pid) - before, MOST_MEMORY)
+            self.assertLess(most_resident(started.pid) - before, MOST_MEMORY)
             self.assert_stops(started)
 
     def test_drops_messages_of_no_bytes_for_all_its_subscribers(self):
@@ -130,12 +123,12 @@ class HostileRequestsTest(unittest.TestCase):
             drive = started.service("external_command/free_space", FreeSpace)
             command = fuzz_bytes.example("free_space")
             command.header.frame_id = "x" * 1000000
-            before = resident(started.pid)
+            before = most_resident(started.pid)
             for _ in range(50):
                 status = drive(command).status
                 self.assert_refused(status, "command.header.frame_id", "1000000", "~requests/max_text")
                 self.assertLess(len(status.message), 1000)
-            self.assertLess(resident(started.pid) - before, MOST_MEMORY)
+            self.assertLess(most_resident(started.pid) - before, MOST_MEMORY)
             stop = msg.ActionCommand(command=msg.ActionCommand.STOP)
             stop.header.frame_id = command.header.frame_id
             status = started.service("external_command/action", Action)(stop).status

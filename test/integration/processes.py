@@ -11,6 +11,15 @@ import roslib.packages
 
 import support
 
+SHADOWS = 4.0 if "TSAN_OPTIONS" in os.environ else 1.0  # sanitizers keep some of all memory that is touched
+MOST_MEMORY = 100.0 * SHADOWS  # that hostile input may take beyond that at the beginning [MB]
+
+
+def most_resident(pid):
+    """Since the process began [MB]."""
+    with open("/proc/%d/status" % pid, encoding="ascii") as file:
+        return next(int(line.split()[1]) / 1000.0 for line in file if line.startswith("VmHWM:"))
+
 
 class Process:
     """A program that ends with the `with` block, and all that it started, as far as it ends its children."""
