@@ -39,6 +39,14 @@ std::optional<RoutingTask> LaneFollowCommandProcessor::convert(const LaneFollowC
   return task;
 }
 
+/// Only the way out of a parking place takes longer.
+bool LaneFollowCommandProcessor::isPlannedAtOnce(const LaneFollowCommand& command) const {
+  if (command.is_start_pose_set) return true;
+  const PlanStart start = context().motionWatch().startFor(0.0);
+  const LaneWayTool lanes(context().requireRouter().map(), context().params().lane_way);
+  return !start.isKnown() || !lanes.isOffLane(start.pose(), context().vehiclePose().height());
+}
+
 void LaneFollowCommandProcessor::processSpecialCommand(const LaneFollowCommand& command, const CancelToken& cancel,
                                                        MotionPlan* plan) {
   if (command.is_start_pose_set) return;

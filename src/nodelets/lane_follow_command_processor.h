@@ -18,6 +18,7 @@ class LaneFollowCommandProcessor : public MotionCommandProcessor<LaneFollow> {
   void start() override;
   void check(const LaneFollowCommand& command) const override;
   std::optional<RoutingTask> convert(const LaneFollowCommand& command, const PlanStart& start) override;
+  bool isPlannedAtOnce(const LaneFollowCommand& command) const override;
   void processSpecialCommand(const LaneFollowCommand& command, const CancelToken& cancel, MotionPlan* plan) override;
 
   std::optional<ManoeuvrePlanner> planner_;

@@ -86,17 +86,9 @@ Display::Display(ros::NodeHandle nh, const DisplayParams& params, std::shared_pt
       nh_, params_.look_at_topic, 1,
       [this](const ros::MessageEvent<geometry_msgs::PointStamped const>& event) { lookAt(*event.getMessage()); },
       params_.requests);
-  command_timer_ = every(kCommandPeriod, &Display::drawNewest);
-  map_timer_ = every(kMapPeriod, &Display::drawMap);
-  ids_timer_ = every(kIdsPeriod, &Display::drawIds);
-}
-
-ros::SteadyTimer Display::every(double period, void (Display::*job)()) {
-  ros::SteadyTimerOptions options;
-  options.period = ros::WallDuration(period);
-  options.callback = [this, job](const ros::SteadyTimerEvent&) { (this->*job)(); };
-  options.callback_queue = executor_.queue();
-  return nh_.createSteadyTimer(options);
+  command_timer_ = executor_.every(kCommandPeriod, [this] { drawNewest(); });
+  map_timer_ = executor_.every(kMapPeriod, [this] { drawMap(); });
+  ids_timer_ = executor_.every(kIdsPeriod, [this] { drawIds(); });
 }
 
 MarkerArray Display::wholeScene() {

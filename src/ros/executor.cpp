@@ -68,6 +68,8 @@ void Executor::post(std::function<void()> job) {
   queues_->guarded.addCallback(boost::make_shared<Job>(std::move(job)), 0);
 }
 
+Periodic Executor::every(double period, std::function<void()> job) { return {period, queue(), std::move(job)}; }
+
 void Executor::stop() {
   queues_->queue.disable();
   queues_->crew.stop();

@@ -10,8 +10,9 @@ namespace external_command {
 
 namespace {
 
-constexpr std::size_t kMostWaiting = 1000;     // lines
-constexpr std::chrono::seconds kLastWords(1);  // for what waits when the writer ends
+constexpr std::size_t kMostWaiting = 1000;       // lines
+constexpr std::chrono::seconds kLastWords(1);    // for what waits when the writer ends
+constexpr std::chrono::milliseconds kPause(10);  // after a line; to wake a thread for each takes as long as a call may
 
 std::mutex live_mutex;
 std::weak_ptr<LogWriter>& live() {
@@ -55,6 +56,7 @@ struct LogWriter::State {
   std::condition_variable changed;
   std::deque<std::pair<LogLevel, std::string>> waiting;
   std::size_t dropped = 0;
+  bool is_asleep = false;  // until somebody wakes it
   bool is_ending = false;
   bool has_ended = false;
 
@@ -62,7 +64,10 @@ struct LogWriter::State {
     lowerThreadPriority();
     std::unique_lock<std::mutex> lock(mutex);
     while (true) {
+      if (waiting.empty()) changed.wait_for(lock, kPause, [this] { return is_ending; });
+      is_asleep = true;
       changed.wait(lock, [this] { return is_ending || !waiting.empty(); });
+      is_asleep = false;
       if (waiting.empty()) break;
       const auto line = std::move(waiting.front());
       waiting.pop_front();
@@ -106,7 +111,7 @@ void LogWriter::write(LogLevel level, std::string line) {
     return;
   }
   state_->waiting.emplace_back(level, std::move(line));
-  state_->changed.notify_all();
+  if (state_->is_asleep) state_->changed.notify_all();
 }
 
 void logLater(LogLevel level, std::string line) {

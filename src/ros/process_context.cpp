@@ -155,20 +155,13 @@ ProcessContext::ProcessContext(const ros::NodeHandle& nh, const ros::NodeHandle&
       reports_(ExecutorOptions{"the executor of the vehicle's reports"}) {
   publishOrigin(parameters, router_.get());
   master_watch_->keepParameters(parameters.getNamespace());
-  const auto every = [&](double period, Executor& executor, const std::function<void()>& job) {
-    ros::SteadyTimerOptions options;
-    options.period = ros::WallDuration(period);
-    options.callback = [job](const ros::SteadyTimerEvent&) { job(); };
-    options.callback_queue = executor.queue();
-    return nh_.createSteadyTimer(options);
-  };
-  memory_timer_ = every(kMemoryPeriod, housekeeping_, [this] { giveBackMemory(); });
-  readiness_timer_ = every(kReadinessPeriod, housekeeping_, [this] { readiness_topic_.update(); });
-  diagnostics_timer_ = every(diagnostics_->period(), housekeeping_, [this] { diagnostics_->publish(); });
+  memory_timer_ = housekeeping_.every(kMemoryPeriod, [this] { giveBackMemory(); });
+  readiness_timer_ = housekeeping_.every(kReadinessPeriod, [this] { readiness_topic_.update(); });
+  diagnostics_timer_ = housekeeping_.every(diagnostics_->period(), [this] { diagnostics_->publish(); });
   silence_timer_ =
-      every(kSilenceCheckPeriod, reports_, [this] { registry_.noteSilence(params_.planner_silence_timeout); });
-  motion_timer_ = every(kMotionPeriod, reports_, [this] { motion_watch_.look(); });
-  progress_timer_ = every(1.0 / params_.progress_rate, reports_, [this] { progress_topic_.publish(); });
+      reports_.every(kSilenceCheckPeriod, [this] { registry_.noteSilence(params_.planner_silence_timeout); });
+  motion_timer_ = reports_.every(kMotionPeriod, [this] { motion_watch_.look(); });
+  progress_timer_ = reports_.every(1.0 / params_.progress_rate, [this] { progress_topic_.publish(); });
 }
 
 std::vector<ros::Publisher> ProcessContext::configuredPads() {

@@ -24,11 +24,7 @@ TransformFeed::TransformFeed(double max_future_stamp) : store_(max_future_stamp)
   nh_.setCallbackQueue(executor_.queue());
   subscribe("/tf", false, &moving_);
   subscribe("/tf_static", true, &fixed_);
-  ros::SteadyTimerOptions options;
-  options.period = ros::WallDuration(kTidyPeriod);
-  options.callback = [this](const ros::SteadyTimerEvent&) { store_.tidy(ros::Time::now(), steadyNow()); };
-  options.callback_queue = executor_.queue();
-  tidying_ = nh_.createSteadyTimer(options);
+  tidying_ = executor_.every(kTidyPeriod, [this] { store_.tidy(ros::Time::now(), steadyNow()); });
 }
 
 TransformFeed::~TransformFeed() {

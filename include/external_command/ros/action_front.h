@@ -36,18 +36,13 @@ class ActionFront : public CommandAction {
   ActionFront(ProcessContext& context, const ros::NodeHandle& nh, const std::string& name, Processor processor)
       : processor_(std::move(processor)), server_(context, nh, name, callbacks()), goals_(context, name) {
     server_.open();
-    ros::NodeHandle timer_nh(nh);
-    ros::SteadyTimerOptions options;
-    options.period = ros::WallDuration(kPeriod);
-    options.callback = [this](const ros::SteadyTimerEvent&) {
+    timer_ = goals_.executor().every(kPeriod, [this] {
       goals_.look();
       is_even_ = !is_even_;
       if (is_even_) return;
       server_.tick();
       goals_.tick();
-    };
-    options.callback_queue = goals_.executor().queue();
-    timer_ = timer_nh.createSteadyTimer(options);
+    });
   }
 
   ~ActionFront() override {
@@ -137,7 +132,7 @@ class ActionFront : public CommandAction {
   Server server_;
   ActionGoals goals_;     // after the server, by which it tells its clients how they end
   bool is_even_ = false;  ///< of the timer
-  ros::SteadyTimer timer_;
+  Periodic timer_;
 };
 
 /// Opens the action when the service is opened, unless the parameter `actions` is false.

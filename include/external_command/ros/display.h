@@ -66,7 +66,6 @@ class Display {
     ros::Publisher publisher;
   };
 
-  ros::SteadyTimer every(double period, void (Display::*job)());
   void drawNewest();
   void drawMap();
   void drawIds();
@@ -84,7 +83,7 @@ class Display {
   ros::Subscriber look_at_subscriber_;
   std::mutex mutex_;
   std::optional<CommandScene> sent_, refused_;  ///< still to be drawn
-  ros::SteadyTimer command_timer_, map_timer_, ids_timer_;
+  Periodic command_timer_, map_timer_, ids_timer_;
 };
 
 }  // namespace external_command

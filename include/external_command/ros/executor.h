@@ -8,6 +8,7 @@
 #include <string>
 
 #include "external_command/ros/guarded_queue.h"
+#include "external_command/ros/periodic.h"
 
 namespace external_command {
 
@@ -42,6 +43,9 @@ class Executor {
 
   /// Runs `job` on the executor. After stop() it is dropped.
   void post(std::function<void()> job);
+
+  /// Runs `job` every `period` [s] for as long as what it returns lives, which must not be longer than the executor.
+  [[nodiscard]] Periodic every(double period, std::function<void()> job);
 
   /// Waits for running callbacks and drops the waiting ones. Idempotent. Not from a callback of the executor itself.
   void stop();

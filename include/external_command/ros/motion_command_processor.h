@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -22,8 +23,9 @@ namespace external_command {
 /// A derived class must  implement check() and processSpecialCommand() or convert(), and call stopServing() in its
 ///                       destructor.
 /// A derived class must  poll the cancel token in every long loop: a stop or a newer command raises it.
-/// A derived class may   override planningTime() and beginsAtVehicle(), and set MotionPlan::on_sent.
-/// The hooks that plan run on a planning thread, below normal priority; no lock is held.
+/// A derived class may   override planningTime(), isPlannedAtOnce() and beginsAtVehicle(), and set MotionPlan::on_sent.
+/// The hooks that plan run on a planning thread, below normal priority, but for plans that are made at once; no lock is
+/// held.
 template <class Service>
 class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
  public:
@@ -48,6 +50,10 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
   /// How long the planning may take; the plan then begins where the vehicle will be [s]. 0 for what is planned at once,
   /// or begins with a route, which the vehicle may well drive on meanwhile.
   virtual double planningTime(const Command& /*command*/, const Pose2d& /*vehicle*/) const { return 0.0; }
+
+  /// True where the plan is only a matter of a route and its path. It is made on the service's own thread then: to hand
+  /// it to a planning thread and back would take as long.
+  virtual bool isPlannedAtOnce(const Command& /*command*/) const { return false; }
 
   /// False for a path that begins where the command says.
   virtual bool beginsAtVehicle(const Command& command) const { return !startIsGiven(command, 0); }
@@ -99,7 +105,7 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
                         Response* response) {
     const ros::SteadyTime begin = ros::SteadyTime::now();
     MotionPlan plan(this->context().motionWatch().startFor(0.0));
-    slot.run([&] {
+    runPlan(command, slot, [&] {
       const double speed = flow_->cappedSpeed(command.target_speed, &plan.report);
       if (const auto task = convert(command, plan.start)) flow_->addRoute(*task, speed, cancel, &plan);
       processSpecialCommand(command, cancel, &plan);
@@ -117,10 +123,18 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
     const ros::SteadyTime begin = ros::SteadyTime::now();
     std::optional<MotionPlan> plan;
     CommandGate::Ticket ticket;
-    slot.run([&] { plan = planFromWhereItWillBe(command, admitted, planning, &ticket); });
+    runPlan(command, slot, [&] { plan = planFromWhereItWillBe(command, admitted, planning, &ticket); });
     takeReport(begin, &*plan, response);
     flow_->send(ticket, *std::move(plan));
     return makeStatus(command.command_id, CommandStatus::RUNNING, ErrorCode::kOk, "sent");
+  }
+
+  void runPlan(const Command& command, const PlanningPool::Slot& slot, const std::function<void()>& job) const {
+    if (isPlannedAtOnce(command)) {
+      job();
+    } else {
+      slot.run(job);
+    }
   }
 
   /// A vehicle that drives on while its plan is made may be elsewhere when it is done: planned once more, then, from

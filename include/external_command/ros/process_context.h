@@ -219,7 +219,7 @@ class ProcessContext {
   Executor housekeeping_, reports_;  // after all that their callbacks use, before what is bound to their queues
   ArrivalNumber last_arrival_ = 0;   ///< giveBackMemory() looked at it
   bool has_memory_ = false;          ///< that was not given back since
-  ros::SteadyTimer silence_timer_, motion_timer_, progress_timer_, readiness_timer_, diagnostics_timer_, memory_timer_;
+  Periodic silence_timer_, motion_timer_, progress_timer_, readiness_timer_, diagnostics_timer_, memory_timer_;
 };
 
 }  // namespace external_command

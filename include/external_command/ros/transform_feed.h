@@ -43,7 +43,7 @@ class TransformFeed {
       ExecutorOptions{"the executor of /tf"}};  // before what is bound to its queue; stopped in the destructor
   ros::NodeHandle nh_;
   ros::Subscriber moving_, fixed_;
-  ros::SteadyTimer tidying_;
+  Periodic tidying_;
 };
 
 }  // namespace external_command

@@ -110,7 +110,7 @@ void ActionCommandProcessor::subscribe() {
     const std::lock_guard<std::mutex> lock(mutex_);
     record(pending_->onMotionSent(motion.command));
   });
-  timer_ = nh.createSteadyTimer(ros::WallDuration(kTick), [this](const ros::SteadyTimerEvent&) { onTick(); });
+  timer_ = watch_executor_.every(kTick, [this] { onTick(); });
 }
 
 void ActionCommandProcessor::check(const ActionCommand& command) const {

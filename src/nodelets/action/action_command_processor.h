@@ -70,7 +70,7 @@ class ActionCommandProcessor : public ServiceCommandProcessor<Action> {
   Executor watch_executor_{
       ExecutorOptions{"the executor of the chassis"}};  // before its users: they leave its queue first
   std::vector<ros::Subscriber> subscribers_;
-  ros::SteadyTimer timer_;
+  Periodic timer_;
   boost::signals2::connection sent_motions_;
 };
 

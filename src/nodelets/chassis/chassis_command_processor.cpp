@@ -85,7 +85,7 @@ void ChassisCommandProcessor::subscribe(double timeout) {
     record(pending_->onChassis(event.getConstMessage()->signal));
   };
   chassis_subscriber_ = subscribeBounded<Chassis>(nh, topic, 10, on_chassis, context().params().requests);
-  timer_ = nh.createSteadyTimer(ros::WallDuration(kTick), [this](const ros::SteadyTimerEvent&) {
+  timer_ = watch_executor_.every(kTick, [this] {
     const std::lock_guard<std::mutex> lock(mutex_);
     pending_->keepWhere([this](CommandSerial serial) { return context().registry().isRunning(serial); });
     record(pending_->onTime(now()));

@@ -38,7 +38,7 @@ class ChassisCommandProcessor : public ServiceCommandProcessor<ChassisControl> {
   Executor watch_executor_{
       ExecutorOptions{"the executor of the chassis' signals"}};  // before its users: they leave its queue first
   ros::Subscriber chassis_subscriber_;
-  ros::SteadyTimer timer_;
+  Periodic timer_;
 };
 
 }  // namespace external_command

@@ -73,11 +73,7 @@ class MoveBaseFront::Server {
 
   void open() {
     server_.open();
-    ros::SteadyTimerOptions options;
-    options.period = ros::WallDuration(kPeriod);
-    options.callback = [this](const ros::SteadyTimerEvent&) { look(); };
-    options.callback_queue = goals_.executor().queue();
-    timer_ = nh_.createSteadyTimer(options);
+    timer_ = goals_.executor().every(kPeriod, [this] { look(); });
     if (goal_topic_.empty()) return;
     nh_.setCallbackQueue(server_.door().queue());
     const auto on_goal = [this](const ros::MessageEvent<geometry_msgs::PoseStamped const>& event) {
@@ -130,7 +126,7 @@ class MoveBaseFront::Server {
   bool is_even_ = false;  ///< of the timer
   ActionServer server_;
   ros::Subscriber poses_;
-  ros::SteadyTimer timer_;
+  Periodic timer_;
 };
 
 MoveBaseFront::MoveBaseFront(ProcessContext& context, const ros::NodeHandle& nh, const std::string& action,

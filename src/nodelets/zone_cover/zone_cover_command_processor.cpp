@@ -80,11 +80,7 @@ void ZoneCoverCommandProcessor::start() {
 
 void ZoneCoverCommandProcessor::open() {
   MotionCommandProcessor<ZoneCover>::open();
-  ros::SteadyTimerOptions options;
-  options.period = ros::WallDuration(kTrackingPeriod);
-  options.callback = [this](const ros::SteadyTimerEvent&) { track(); };
-  options.callback_queue = tracking_executor_.queue();
-  tracking_timer_ = getNodeHandle().createSteadyTimer(options);
+  tracking_timer_ = tracking_executor_.every(kTrackingPeriod, [this] { track(); });
 }
 
 void ZoneCoverCommandProcessor::check(const ZoneCoverCommand& command) const {

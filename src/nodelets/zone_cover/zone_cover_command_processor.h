@@ -70,7 +70,7 @@ class ZoneCoverCommandProcessor : public MotionCommandProcessor<ZoneCover> {
   std::optional<Sweep> sweep_;
   LogThrottle not_followed_{10.0};
   Executor tracking_executor_{ExecutorOptions{"the executor that follows a sweep"}};  // before its timer
-  ros::SteadyTimer tracking_timer_;
+  Periodic tracking_timer_;
 };
 
 /// @throws InvalidParameter
