@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -20,7 +21,8 @@
 namespace external_command {
 namespace {
 
-constexpr int kRepetitions = 21;
+constexpr std::size_t kRepetitions = 21;  ///< fewer, but three at least, of what takes long
+constexpr double kPatience = 10.0;        ///< [s]
 constexpr int kQueries = 100000;
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
@@ -29,13 +31,15 @@ double now() { return std::chrono::duration<double>(std::chrono::steady_clock::n
 template <class Function>
 double medianTime(const Function& function) {
   std::vector<double> times;
-  for (int i = 0; i < kRepetitions; ++i) {
+  const double begin = now();
+  while (times.size() < 3 || (times.size() < kRepetitions && now() - begin < kPatience)) {
     const double start = now();
     function();
     times.push_back(now() - start);
   }
-  std::nth_element(times.begin(), times.begin() + kRepetitions / 2, times.end());
-  return times[kRepetitions / 2];
+  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+  std::nth_element(times.begin(), middle, times.end());
+  return *middle;
 }
 
 /// Resident memory of this process [bytes].
@@ -81,6 +85,7 @@ std::string report(const std::string& file) {
   std::ostringstream out;
   out << "  {\"file\": \"" << file << "\", \"lanes\": " << lanes << ", \"load_ms\": " << load * 1e3;
   if (parse > 0.0) out << ", \"protobuf_parse_ms\": " << parse * 1e3 << ", \"ratio\": " << load / parse;
+  out << ", \"file_mb\": " << static_cast<double>(std::filesystem::file_size(file)) / 1e6;
   out << ", \"memory_growth_mb\": " << growth / 1e6 << ", \"nearest_lane_us\": " << query * 1e6 << "}";
   return out.str();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Round trip of a lane-follow call from a persistent client beside that of an empty service in the same manager.
-// service_benchmark X0 Y0 X1 Y1 [CALLS]: from (X0, Y0) to (X1, Y1) [m]; prints one JSON object.
+// service_benchmark X0 Y0 X1 Y1 [CALLS [VEHICLE...]]: from (X0, Y0) to (X1, Y1) [m]; prints one JSON object.
+// VEHICLE is the namespace of a component in that manager; with several, each is called in its turn.
 #include <ros/ros.h>
 #include <roscpp/Empty.h>
 
@@ -8,6 +9,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 #include <vector>
 
 #include "external_command/LaneFollow.h"
@@ -33,6 +35,18 @@ double quantile(std::vector<double> times, double share) {
   return times[static_cast<std::size_t>(share * static_cast<double>(times.size() - 1))];
 }
 
+/// roscpp's own function tells of it on standard output.
+void waitFor(const std::string& service) {
+  while (!ros::service::exists(service, false)) ros::WallDuration(0.05).sleep();
+}
+
+/// Namespaces, this node's own where none is given.
+std::vector<std::string> vehiclesOf(int argc, char** argv) {
+  std::vector<std::string> vehicles(argv + std::min(argc, 6), argv + argc);
+  if (vehicles.empty()) vehicles.push_back(ros::this_node::getNamespace());
+  return vehicles;
+}
+
 LaneFollow requestOf(char** argv) {
   LaneFollow service;
   auto& command = service.request.command;
@@ -50,23 +64,28 @@ LaneFollow requestOf(char** argv) {
 int main(int argc, char** argv) {
   ros::init(argc, argv, "service_benchmark", ros::init_options::AnonymousName);
   if (argc < 5) {
-    std::fprintf(stderr, "usage: service_benchmark X0 Y0 X1 Y1 [CALLS]\n");
+    std::fprintf(stderr, "usage: service_benchmark X0 Y0 X1 Y1 [CALLS [VEHICLE...]]\n");
     return 2;
   }
   const int calls = argc > 5 ? std::atoi(argv[5]) : 1000;
   ros::NodeHandle nh;
-  ros::service::waitForService("external_command/lane_follow", ros::Duration(20.0));
-  ros::service::waitForService("empty", ros::Duration(20.0));
+  waitFor("empty");
   auto empty_client = nh.serviceClient<roscpp::Empty>("empty", true);
-  auto command_client = nh.serviceClient<LaneFollow>("external_command/lane_follow", true);
+  std::vector<ros::ServiceClient> command_clients;
+  for (const std::string& vehicle : vehiclesOf(argc, argv)) {
+    const std::string service = ros::names::append(vehicle, "external_command/lane_follow");
+    waitFor(service);
+    command_clients.push_back(nh.serviceClient<LaneFollow>(service, true));
+  }
 
   LaneFollow command = requestOf(argv);
   roscpp::Empty nothing;
   std::vector<double> empty_times, command_times;
-  const int warm_up = 50;
+  const int warm_up = std::max(50, 2 * static_cast<int>(command_clients.size()));
   for (int i = 0; i < warm_up + calls; ++i) {  // in turn, so that noise hits both alike
     const double empty_time = timeCall(empty_client, nothing);
-    const double command_time = timeCall(command_client, command);
+    const double command_time =
+        timeCall(command_clients[static_cast<std::size_t>(i) % command_clients.size()], command);
     if (command.response.status.status != CommandStatus::RUNNING) {
       std::fprintf(stderr, "service_benchmark: refused: %s\n", command.response.status.message.c_str());
       return 1;
@@ -78,8 +97,8 @@ int main(int argc, char** argv) {
   const double empty = quantile(empty_times, 0.5), lane_follow = quantile(command_times, 0.5);
   std::printf(
       "{\"benchmark\": \"service\", \"calls\": %d, \"route_m\": %.1f, \"empty_us\": %.1f, \"lane_follow_us\": %.1f, "
-      "\"ratio\": %.3f, \"empty_p99_us\": %.1f, \"lane_follow_p99_us\": %.1f}\n",
+      "\"ratio\": %.3f, \"empty_p99_us\": %.1f, \"lane_follow_p99_us\": %.1f, \"vehicles\": %zu}\n",
       calls, command.response.report.route_length, empty, lane_follow, lane_follow / empty, quantile(empty_times, 0.99),
-      quantile(command_times, 0.99));
+      quantile(command_times, 0.99), command_clients.size());
   return 0;
 }

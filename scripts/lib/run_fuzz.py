@@ -9,8 +9,8 @@ import sys
 import threading
 import time
 
+from benchmark_programs import executable
 from campaign import DemoError, Figures, Gateway, MemoryWatch
-from run_benchmarks import executable
 from run_soak import QUIET
 
 MOST_MEMORY = 500.0  # beyond that at the beginning [MB]

@@ -10,8 +10,8 @@ import sys
 import time
 
 import owned_processes
+from benchmark_programs import executable, measure
 from demo_stack import DemoError, Stack
-from run_benchmarks import executable, measure
 
 WARM_UP = 5.0  # until the planners are busy [s]
 TIMEOUT = 300.0  # of one measurement [s]
