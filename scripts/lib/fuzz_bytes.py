@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Requests and messages as bytes: damaged, cut off, and with counts that lie; and handshakes that are none."""
+"""Requests and messages as bytes: damaged, cut off, and with counts that lie; handshakes that are none; deep calls."""
 import io
 import random
 import socket
 import struct
 import time
+import xmlrpc.client
 
 import genpy
+import rosgraph
 import rospy
 import rosservice
 from geometry_msgs.msg import Point
@@ -173,6 +175,33 @@ def shake_hands_badly(seed, end, findings):
             findings.add("no connection was taken", error)
         findings.note("handshake", 0, time.monotonic() - begin)
         time.sleep(0.005)
+
+
+def nested_call(depth):
+    """The body of an XML-RPC call whose argument nests so many values."""
+    return xmlrpc.client.dumps(("VALUES",), "getPid").replace(
+        "<value><string>VALUES</string></value>",
+        "<value><array><data>" * depth + "</data></array></value>" * depth).encode()
+
+
+def call_damaged(seed, end, findings):
+    """XML-RPC calls of the node that nest deep or are damaged, until `end`."""
+    chance = random.Random(seed)
+    host, port = rosgraph.Master(rospy.get_name()).lookupNode(
+        "/apollo/external_command")[len("http://"):].rstrip("/").rsplit(":", 1)
+    while time.monotonic() < end:
+        body = nested_call(chance.choice([1, 50, 200, 10000, 200000]))
+        if chance.random() < 0.5:
+            body = damaged(body[:2000], chance)
+        begin = time.monotonic()
+        try:
+            with socket.create_connection((host, int(port)), ANSWER_LIMIT) as connection:
+                connection.sendall(b"POST / HTTP/1.1\r\nContent-Length: %d\r\n\r\n" % len(body) + body)
+                connection.recv(100)
+        except OSError as error:
+            findings.add("XML-RPC gave no answer", error)
+        findings.note("XML-RPC call", 0, time.monotonic() - begin)
+        time.sleep(0.1)
 
 
 class RawMessage(genpy.Message):

@@ -131,6 +131,7 @@ def fuzz_gateway(root, build_dir, minutes, seed, figures):
              "--duration", str(60.0 * minutes), "--threads", "4", "--stop-limit", "5"])
         jobs = [(fuzz_bytes.shoot_bytes, (seed + i, end, findings)) for i in range(CLIENTS)]
         jobs += [(fuzz_bytes.shake_hands_badly, (seed, end, findings)),
+                 (fuzz_bytes.call_damaged, (seed, end, findings)),
                  (fuzz_bytes.publish_bytes, (seed, end, topics, findings)),
                  (fuzz_grids, (seed, end, findings)),
                  (fuzz_zone_files, (seed, end, gateway.folder, findings)),

@@ -2,13 +2,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """Requests and messages that state more than they hold, or are too large; and limits against slips of callers."""
 import os
+import socket
 import struct
 import sys
 import unittest
+import urllib.request
 
 import genpy
+import rosgraph
 import rospkg
 import rospy
+import rosservice
 import rostest
 from geometry_msgs.msg import Point
 
@@ -101,6 +105,32 @@ class HostileRequestsTest(unittest.TestCase):
                 support.wait_until(lambda: "a message on %s/" % NAMESPACE in started.output, "the loss is told of")
                 publisher.unregister()
             self.assertLess(most_resident(started.pid) - before, MOST_MEMORY)
+            self.assert_stops(started)
+
+    def test_drops_connections_whose_header_states_more_than_it_holds(self):
+        """roscpp's own function would read beyond it, and tell of it in these words."""
+        with component() as started:
+            self.assert_stops(started)
+            uri = rosservice.get_service_uri(NAMESPACE + "/external_command/action")
+            host, _, port = uri[len("rosrpc://"):].rpartition(":")
+            for stated in [5, 1000, 999999, 2 ** 31, 2 ** 32 - 1] * 20:
+                lie = struct.pack("<I", stated) + b"a=b"
+                with socket.create_connection((host, int(port)), support.DEADLINE) as connection:
+                    connection.sendall(struct.pack("<I", len(lie)) + lie)
+                    connection.settimeout(support.DEADLINE)
+                    self.assertEqual(connection.recv(1), b"", "the connection is closed")
+            self.assert_stops(started)
+            self.assertNotIn("TCPROS header", started.output)
+
+    def test_refuses_calls_of_xml_rpc_that_nest_too_deep(self):
+        """Every node has such a server; the parameter server's answers nest, too."""
+        with component() as started:
+            self.assert_stops(started)
+            node = rosgraph.Master(rospy.get_name()).lookupNode(NAMESPACE + "/external_command")
+            for depth, is_refused in ((50, False), (101, True), (20000, True), (200000, True)):
+                request = urllib.request.Request(node, fuzz_bytes.nested_call(depth), {"Content-Type": "text/xml"})
+                with urllib.request.urlopen(request, timeout=support.DEADLINE) as answer:
+                    self.assertEqual("the call nests" in answer.read().decode(), is_refused, depth)
             self.assert_stops(started)
 
     def test_drops_messages_of_no_bytes_for_all_its_subscribers(self):
