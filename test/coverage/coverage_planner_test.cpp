@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <string>
 
 #include "external_command/core/error.h"
 #include "sweeper.h"
@@ -26,6 +27,17 @@ TEST(CoveragePlanner, KeepsOutOfHoles) {
   const CoverageResult result = planned(area);
   EXPECT_GT(result.coverage_ratio, 0.9);
   EXPECT_TRUE(isDrivable(result.path, area));
+}
+
+TEST(CoveragePlanner, NamesAnAreaThatIsTooLarge) {
+  CoverageArea area{box(0, 0, 30'000, 30), {}};
+  area.name = "drivable_roi";
+  try {
+    planned(area);
+    FAIL() << "it was planned";
+  } catch (const InvalidRequest& error) {
+    EXPECT_EQ(std::string(error.what()).find("drivable_roi is 30000.00 m across"), 0u) << error.what();
+  }
 }
 
 TEST(CoveragePlanner, WorksOnSwathsAndNowhereElse) {

@@ -79,7 +79,8 @@ TEST_F(PanelTest, StopStopsTheVehicleAndStartLetsItGoOn) {
   hand_.press("stop");
   EXPECT_TRUE(waitUntilStanding()) << hand_.answers();
   EXPECT_TRUE(hand_.answersHold("STOP"));
-  EXPECT_NE(hand_.text("running").find("RUNNING"), std::string::npos) << "it is held, not ended";
+  EXPECT_TRUE(PanelHand::waitUntil([&] { return hand_.text("running").find("RUNNING") != std::string::npos; }))
+      << "it is held, not ended";
   hand_.press("start");
   EXPECT_TRUE(waitUntilDriving()) << hand_.answers();
 }

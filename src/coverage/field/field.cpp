@@ -36,7 +36,7 @@ Point2d originOf(const CoverageArea& area) {
   const BoundingBox& box = area.outer.box();
   const Point2d size = box.max - box.min;
   if (size.maxCoeff() > kMaxExtent) {
-    throw InvalidRequest(text("the area is ", metres(size.maxCoeff()), " across; at most ", metres(kMaxExtent),
+    throw InvalidRequest(text(area.name, " is ", metres(size.maxCoeff()), " across; at most ", metres(kMaxExtent),
                               " can be planned: divide it"));
   }
   return {std::round(box.min.x()), std::round(box.min.y())};

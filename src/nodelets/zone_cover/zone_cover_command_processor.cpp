@@ -141,6 +141,7 @@ CoverageArea ZoneCoverCommandProcessor::zoneOf(const ZoneCoverCommand& command, 
   }
   zone.grid = planner_->grid();
   zone.limits = planner_->regionLimits();
+  zone.name = by_area ? text("the area of zone_cover_area_id ", command.zone_cover_area_id) : "drivable_roi";
   return zone;
 }
 
