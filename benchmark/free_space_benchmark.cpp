@@ -48,8 +48,8 @@ Plans every parking case (*.json), one line each and a summary. Needs no ROS mas
 Columns: time and plain cost of the first valid path, plain cost of the final one (in brackets: of best_known.json
 beside the cases), its cost with all prices, its length, that in reverse and that near obstacles [m], gear changes,
 turns of the wheels between them (1: from straight on to full lock), how long a vehicle at manoeuvre speed waits for
-these [s], clearance [m], and the time that the case took on the wall clock and on the processor [s]. The plain cost, that of
-best_known.json, is length plus 3 m per gear change. A path that a controller could not rely on has a line more.
+these [s], clearance [m], and the time that the case took on the wall clock and on the processor [s]. The plain cost,
+that of best_known.json, is length plus 3 m per gear change. A path that a controller could not rely on has a line more.
 Exit code: 0; 1 if there is such a path; 2 if an option is wrong or a file cannot be read or written.
 )";
 
@@ -133,8 +133,7 @@ void report(const FreeSpacePlan& result, double wait, double best_known, double 
   if (best_known > 0.0) std::printf(" (%.3f)", summary->ratios.back());
   std::printf(
       "  cost %7.3f  length %7.3f  reverse %7.3f  near %7.3f  gear changes %2u  wheel turns %4.1f  wait %4.1f  "
-      "clearance %.3f  "
-      "time %.3f  cpu %.3f\n",
+      "clearance %.3f  time %.3f  cpu %.3f\n",
       result.cost, result.length, result.reverse_length, result.near_length, result.gear_changes, result.wheel_turns,
       wait, result.min_clearance, result.planning_time, cpu_seconds);
 }
@@ -183,8 +182,7 @@ void print(const Summary& summary) {
   }
   std::printf(
       "; in reverse %.1f %% of the way, near obstacles %.1f %%; wheel turns median %.1f, wait for them mean %.1f s; "
-      "cpu median %.3f s, most %.3f s; "
-      "faulty paths: %zu\n",
+      "cpu median %.3f s, most %.3f s; faulty paths: %zu\n",
       100.0 * summary.reverse_length / std::max(summary.length, 1e-9),
       100.0 * summary.near_length / std::max(summary.length, 1e-9), median(summary.wheel_turns),
       std::accumulate(summary.waits.begin(), summary.waits.end(), 0.0) / std::max<double>(summary.waits.size(), 1),

@@ -35,9 +35,16 @@ double quantile(std::vector<double> times, double share) {
   return times[static_cast<std::size_t>(share * static_cast<double>(times.size() - 1))];
 }
 
-/// roscpp's own function tells of it on standard output.
+/// roscpp's own function tells of it on standard output. Ends the program where the service does not come.
 void waitFor(const std::string& service) {
-  while (!ros::service::exists(service, false)) ros::WallDuration(0.05).sleep();
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!ros::service::exists(service, false)) {
+    if (std::chrono::steady_clock::now() > end) {
+      std::fprintf(stderr, "service_benchmark: %s is not there after 60 s\n", service.c_str());
+      std::exit(1);
+    }
+    ros::WallDuration(0.05).sleep();
+  }
 }
 
 /// Namespaces, this node's own where none is given.

@@ -7,8 +7,8 @@ namespace external_command {
 
 /// What driving near an obstacle costs.
 struct ClosenessPrice {
-  double price = 0.0;     ///< of a metre at the margin, as length forward; nothing at the distance and beyond it
-  double distance = 0.5;  ///< beyond the margin [m]
+  double price;     ///< of a metre at the margin, as length forward; nothing at the distance and beyond it
+  double distance;  ///< beyond the margin [m]
 };
 
 /// What a path costs a driver, as length forward [m]: metres forward and in reverse, gear changes, turning the wheels

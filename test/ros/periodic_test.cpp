@@ -71,16 +71,15 @@ TEST(Periodic, MayBeStoppedByItsOwnCall) {
 TEST(Periodic, SkipsCallsThatASlowOneIsInTheWayOf) {
   Executor executor;
   std::atomic<int> calls{0};
-  const auto begin = std::chrono::steady_clock::now();
   const Periodic periodic = executor.every(0.001, [&] {
-    ++calls;
-    std::this_thread::sleep_for(milliseconds(20));
+    if (++calls == 1) std::this_thread::sleep_for(milliseconds(1000));
   });
-  ASSERT_TRUE(becomes([&] { return calls >= 5; }));
-  EXPECT_GE(std::chrono::steady_clock::now() - begin, milliseconds(80));
+  ASSERT_TRUE(becomes([&] { return calls >= 2; }));
+  std::this_thread::sleep_for(milliseconds(20));
+  EXPECT_LT(calls, 500) << "a thousand have come due meanwhile";
 }
 
-TEST(Periodic, HasOneThreadForThousands) {
+TEST(Periodic, ServesThousandsSideBySide) {
   Executor executor;
   std::atomic<int> calls{0};
   std::vector<Periodic> many;
