@@ -31,8 +31,9 @@ class Supernodes {
 
   const std::vector<Supernode>& all() const { return all_; }
   const Supernode& of(std::uint32_t node) const { return all_[of_[node]]; }
-  std::size_t size() const { return of_.size(); }  ///< nodes
-  std::size_t cells() const { return cells_; }     ///< of all rows
+  std::size_t indexOf(std::uint32_t node) const { return of_[node]; }  ///< in `all`
+  std::size_t size() const { return of_.size(); }                      ///< nodes
+  std::size_t cells() const { return cells_; }                         ///< of all rows
 
   /// The lowest node above this one that it is linked with; `none` of a root.
   std::uint32_t parent(std::uint32_t node, std::uint32_t none) const;
