@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "external_command/core/polygon.h"
 #include "external_command/core/text.h"
@@ -17,19 +18,20 @@ constexpr double kMinSegment = 1e-3;  // [m]
 
 }  // namespace
 
-Polyline::Polyline(const std::vector<Point2d>& points) {
-  points_.reserve(points.size());
-  s_.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Point2d& point = points[i];
+Polyline::Polyline(std::vector<Point2d> points) : points_(std::move(points)) {
+  s_.reserve(points_.size());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Point2d point = points_[i];
     if (!isPlausible(point)) {
       throw std::invalid_argument(text("point ", i, " is not finite, or lies beyond 100,000 km"));
     }
-    const double step = points_.empty() ? 0.0 : (point - points_.back()).norm();
-    if (!points_.empty() && step < kMinSegment) continue;
-    s_.push_back(points_.empty() ? 0.0 : s_.back() + step);
-    points_.push_back(point);
+    const double step = count == 0 ? 0.0 : (point - points_[count - 1]).norm();
+    if (count > 0 && step < kMinSegment) continue;
+    s_.push_back(count == 0 ? 0.0 : s_.back() + step);
+    points_[count++] = point;
   }
+  points_.resize(count);
   if (points_.size() < 2) {
     throw std::invalid_argument(text(points_.size(), " distinct points; at least 2 are needed"));
   }
@@ -85,7 +87,7 @@ Polyline Polyline::slice(double from, double to) const {
     if (s_[i] > from + kMinSegment && s_[i] < to - kMinSegment) part.push_back(points_[i]);
   }
   part.push_back(pointAt(to));
-  return Polyline(part);
+  return Polyline(std::move(part));
 }
 
 std::vector<double> headingsOf(const std::vector<Point2d>& points) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iterator>
 #include <stdexcept>
+#include <utility>
 
 #include "external_command/core/text.h"
 #include "lane_checks.h"
@@ -64,7 +65,7 @@ class LaneResolver {
   bool clean(LaneData* lane);
   void cleanBoundary(const LaneData& lane, const char* side, LaneBoundary* boundary);
   void cleanWidths(const LaneData& lane, std::vector<WidthSample>* samples);
-  void checkType(const LaneData& lane);
+  void checkType(const LaneData& lane, const FaultPlace& begin);
   void compareLength(const LaneData& lane, const Polyline& center);
   void resolveReferences(std::size_t index);
   std::vector<LaneIndex> resolved(const std::vector<std::string>& ids, const char* kind, LaneIndex self);
@@ -85,12 +86,13 @@ void LaneResolver::addLane(LaneData* lane) {
     map_.faults.add(MapFault::kLaneIdRepeated, {lane->id}, beginOf(*lane), lane->id);
     return;
   }
+  const FaultPlace begin = beginOf(*lane);
   try {
     std::vector<HeightSample> heights;
     if (has_heights_) heights = heightProfile(lane->center, lane->heights);
-    Polyline center(lane->center);
+    Polyline center(std::move(lane->center));
     compareLength(*lane, center);
-    checkType(*lane);
+    checkType(*lane, begin);
     map_.lanes.push_back({std::move(lane->id),
                           std::move(center),
                           std::move(lane->left),
@@ -111,8 +113,7 @@ void LaneResolver::addLane(LaneData* lane) {
                           std::move(lane->junction),
                           std::move(heights)});
   } catch (const std::invalid_argument& error) {
-    map_.faults.add(MapFault::kLaneUnusable, {lane->id}, beginOf(*lane), lane->id, ": the centre line has ",
-                    error.what());
+    map_.faults.add(MapFault::kLaneUnusable, {lane->id}, begin, lane->id, ": the centre line has ", error.what());
     return;
   }
   map_.lane_by_id.emplace(map_.lanes.back().id, static_cast<LaneIndex>(map_.lanes.size() - 1));
@@ -151,15 +152,14 @@ bool LaneResolver::clean(LaneData* lane) {
 void LaneResolver::compareLength(const LaneData& lane, const Polyline& center) {
   const double off = std::abs(center.length() - lane.length);
   if (off <= kLengthTolerance + kLengthShare * center.length()) return;
-  map_.faults.add(MapFault::kLaneLengthWrong, {lane.id}, beginOf(lane), lane.id, ": ", metres(lane.length), " stated, ",
-                  metres(center.length()), " measured");
+  map_.faults.add(MapFault::kLaneLengthWrong, {lane.id}, {center.points().front()}, lane.id, ": ", metres(lane.length),
+                  " stated, ", metres(center.length()), " measured");
 }
 
-void LaneResolver::checkType(const LaneData& lane) {
+void LaneResolver::checkType(const LaneData& lane, const FaultPlace& begin) {
   if (lane.type_statement == TypeStatement::kKnown) return;
   const bool is_missing = lane.type_statement == TypeStatement::kMissing;
-  map_.faults.add(is_missing ? MapFault::kLaneTypeMissing : MapFault::kLaneTypeUnknown, {lane.id}, beginOf(lane),
-                  lane.id);
+  map_.faults.add(is_missing ? MapFault::kLaneTypeMissing : MapFault::kLaneTypeUnknown, {lane.id}, begin, lane.id);
 }
 
 void LaneResolver::cleanBoundary(const LaneData& lane, const char* side, LaneBoundary* boundary) {

@@ -21,6 +21,9 @@ BoundingBox boxOf(const std::vector<Point2d>& points, std::size_t first, std::si
 }  // namespace
 
 LaneTree::LaneTree(const std::vector<Lane>& lanes) {
+  std::size_t count = 0;
+  for (const Lane& lane : lanes) count += (lane.center.points().size() + kPieceSize - 2) / kPieceSize;
+  pieces_.reserve(count);
   for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
     const std::vector<Point2d>& points = lanes[lane].center.points();
     for (std::size_t first = 0; first + 1 < points.size(); first += kPieceSize) {
@@ -29,7 +32,11 @@ LaneTree::LaneTree(const std::vector<Lane>& lanes) {
                          static_cast<std::uint32_t>(last)});
     }
   }
-  if (!pieces_.empty()) build({0, 0, pieces_.size()});
+  if (pieces_.empty()) return;
+  std::size_t first = 0;  // of the boxes of one depth
+  for (std::size_t most = pieces_.size(); most > kLeafSize; most -= most / 2) first = 2 * first + 1;
+  boxes_.resize(2 * first + 1);
+  build({0, 0, pieces_.size()});
 }
 
 void LaneTree::build(const Node& node) {
@@ -38,7 +45,6 @@ void LaneTree::build(const Node& node) {
     box.min = box.min.cwiseMin(pieces_[i].box.min);
     box.max = box.max.cwiseMax(pieces_[i].box.max);
   }
-  if (boxes_.size() <= node.index) boxes_.resize(node.index + 1);
   boxes_[node.index] = box;
   if (node.isLeaf()) return;
   const Point2d size = box.max - box.min;

@@ -106,6 +106,7 @@ class LinkCheck {
     const std::vector<Point2d>& line = lane.center.points();
     for (std::size_t i = 1; i + 1 < line.size(); ++i) {
       const Point2d in = line[i] - line[i - 1], out = line[i + 1] - line[i];
+      if (in.dot(out) > 0.0) continue;  // nearly all; a right angle is not enough
       const double back = std::min(in.norm(), out.norm());
       if (back < kOddFold || std::abs(angleBetween(headingOf(in), headingOf(out))) < kFoldTurn) continue;
       map_.faults.add(MapFault::kFold, {lane.id}, {line[i], back}, lane.id, " at ", at(line[i]), ", by ", metres(back));

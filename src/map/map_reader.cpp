@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 #include "external_command/core/error.h"
+#include "external_command/core/in_parallel.h"
 #include "external_command/core/text.h"
 #include "file_bytes.h"
 #include "proto_conversion.h"
@@ -15,6 +17,7 @@ namespace external_command {
 
 namespace {
 
+constexpr std::size_t kPartSize = 1 << 20;  // of files that are parsed in parts [bytes]
 constexpr const char* kWhatNext = "; give Apollo's base_map or sim_map, binary or protobuf text";
 
 /// A binary map cannot do without control characters (field tags and lengths), a text has none.
@@ -40,19 +43,43 @@ void parseText(const std::string& file, const std::string& bytes, ProtoConverter
   }
 }
 
-/// A message cut between two of its fields is two messages, which merge into the one. So each lane is parsed into the
-/// memory of the one before: faster than all of them at once, and without a second copy of the map.
-void parseBinary(const std::string& file, const std::string& bytes, ProtoConverter* converter) {
-  proto::Map part;
-  for (std::size_t begin = 0; begin < bytes.size();) {
-    const std::size_t end = fieldEnd(bytes, begin);
-    if (end == kNoField || !part.ParsePartialFromArray(bytes.data() + begin, static_cast<int>(end - begin))) {
-      throw MapError(text(file, " is no map, or a damaged or truncated one: it makes no sense from byte ", begin,
-                          " of ", bytes.size(), " on", kWhatNext));
-    }
-    converter->add(part);
-    begin = end;
+[[noreturn]] void failAt(const std::string& file, const std::string& bytes, std::size_t position) {
+  throw MapError(text(file, " is no map, or a damaged or truncated one: it makes no sense from byte ", position, " of ",
+                      bytes.size(), " on", kWhatNext));
+}
+
+/// Where the fields of a message may be cut into parts of about the same size: the beginnings of the parts, and the end
+/// of the last field.
+std::vector<std::size_t> cutBetweenFields(const std::string& bytes, std::size_t parts) {
+  std::vector<std::size_t> cuts = {0};
+  std::size_t position = 0;
+  while (position < bytes.size()) {
+    const std::size_t end = fieldEnd(bytes, position);
+    if (end == kNoField) break;
+    position = end;
+    if (position / cuts.size() >= bytes.size() / parts && cuts.size() < parts) cuts.push_back(position);
   }
+  cuts.push_back(position);
+  return cuts;
+}
+
+/// A message cut between two of its fields is two messages, which merge into the one. So each lane is parsed into the
+/// memory of the one before: faster than all of them at once, and without a second copy of the map. And a large file is
+/// parsed in parts at the same time.
+void parseBinary(const std::string& file, const std::string& bytes, ProtoConverter* converter) {
+  const std::vector<std::size_t> cuts = cutBetweenFields(bytes, parallelParts(bytes.size() / kPartSize));
+  std::vector<ProtoConverter> parts(cuts.size() - 1);
+  inParallel(parts.size(), [&](std::size_t i) {
+    proto::Map field;
+    for (std::size_t begin = cuts[i], end = begin; begin < cuts[i + 1]; begin = end) {
+      end = fieldEnd(bytes, begin);
+      const bool is_read = field.ParsePartialFromArray(bytes.data() + begin, static_cast<int>(end - begin));
+      if (!is_read) failAt(file, bytes, begin);
+      parts[i].add(field);
+    }
+  });
+  if (cuts.back() < bytes.size()) failAt(file, bytes, cuts.back());
+  for (ProtoConverter& part : parts) converter->add(std::move(part));
 }
 
 MapData parse(const std::string& file) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proto_conversion.h"
 
+#include <iterator>
+#include <utility>
+
 namespace external_command {
 
 namespace {
@@ -134,6 +137,12 @@ bool hasUnknownType(const proto::Lane& lane) {
   return false;
 }
 
+template <class T>
+void append(std::vector<T>&& from, std::vector<T>* to) {
+  to->insert(to->end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+  from = {};
+}
+
 }  // namespace
 
 void ProtoConverter::add(const proto::Map& part) {
@@ -154,6 +163,18 @@ void ProtoConverter::add(const proto::Map& part) {
   for (const proto::Area& area : part.ad_area()) {
     data_.areas.push_back({area.id().id(), area.name(), pointsOf(area.polygon()), textsOf(area.overlap_id())});
   }
+}
+
+void ProtoConverter::add(ProtoConverter&& following) {
+  MapData& from = following.data_;
+  if (!from.version.empty()) data_.version = std::move(from.version);
+  if (!from.projection.empty()) data_.projection = std::move(from.projection);
+  append(std::move(from.lanes), &data_.lanes);
+  append(std::move(from.roads), &data_.roads);
+  append(std::move(from.overlaps), &data_.overlaps);
+  append(std::move(from.junctions), &data_.junctions);
+  append(std::move(from.parking_spaces), &data_.parking_spaces);
+  append(std::move(from.areas), &data_.areas);
 }
 
 void ProtoConverter::addLane(const proto::Lane& message) {

@@ -12,6 +12,9 @@ class ProtoConverter {
  public:
   void add(const proto::Map& part);
 
+  /// Adds all that another gathered from what follows in the file, and leaves that one empty.
+  void add(ProtoConverter&& following);
+
   /// Everything added; call it once, at the end.
   MapData take() { return std::move(data_); }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lane_checks.h"
 
@@ -53,7 +54,7 @@ Lane reversed(const Lane& lane) {
   std::vector<Point2d> line = lane.center.points();
   std::reverse(line.begin(), line.end());
   Lane other{lane};
-  other.center = Polyline(line);
+  other.center = Polyline(std::move(line));
   other.left = reversed(lane.right, lane.length());
   other.right = reversed(lane.left, lane.length());
   other.left_widths = reversed(lane.right_widths, lane.length());

@@ -233,6 +233,56 @@ TEST(MapReader, NamesTheFileWhereNoLaneCanBeUsed) {
   }
 }
 
+/// A field of a map: a lane of some kilobytes, and an area of the same id.
+std::string laneAndArea(int id) {
+  proto::Map part;
+  proto::Lane* lane = part.add_lane();
+  lane->mutable_id()->set_id(std::to_string(id));
+  auto* line = lane->mutable_central_curve()->add_segment()->mutable_line_segment();
+  for (int i = 0; i < 200; ++i) line->add_point()->set_x(i);
+  part.add_ad_area()->mutable_id()->set_id(std::to_string(id));
+  return part.SerializeAsString();
+}
+
+constexpr int kManyLanes = 3000;
+
+TEST(MapReader, ReadsALargeFileInPartsWithAllInItsOrder) {
+  std::string bytes;
+  for (int id = 0; id < kManyLanes; ++id) bytes += laneAndArea(id);
+  proto::Map last;
+  last.mutable_header()->set_version("7");
+  const TemporaryFile file(bytes + last.SerializeAsString());
+  const MapData data = readMapData(file.path());
+  EXPECT_EQ(data.version, "7");
+  ASSERT_EQ(data.lanes.size(), static_cast<std::size_t>(kManyLanes));
+  ASSERT_EQ(data.areas.size(), data.lanes.size());
+  for (std::size_t i = 0; i < data.lanes.size(); ++i) {
+    EXPECT_EQ(data.lanes[i].id, std::to_string(i));
+    EXPECT_EQ(data.areas[i].id, std::to_string(i));
+    EXPECT_EQ(data.lanes[i].center.size(), 200U);
+  }
+}
+
+TEST(MapReader, NamesTheFirstOfSeveralDamagedPlacesOfALargeFile) {
+  std::string bytes;
+  std::vector<std::size_t> begins;
+  for (int id = 0; id < kManyLanes; ++id) {
+    begins.push_back(bytes.size());
+    bytes += laneAndArea(id);
+  }
+  const auto damage = [&](int lane) { bytes[begins[static_cast<std::size_t>(lane)] + 4] = '\x0f'; };
+  const auto sense = [&](int lane) {
+    return "no sense from byte " + std::to_string(begins[static_cast<std::size_t>(lane)]) + " of";
+  };
+  for (const int lane : {kManyLanes - 2, kManyLanes / 2, 1}) {  // each is the first then
+    damage(lane);
+    const std::string why = refusal(bytes);
+    EXPECT_NE(why.find(sense(lane)), std::string::npos) << why;
+  }
+  bytes.resize(bytes.size() - 3);  // the end of the last field is missing, too
+  EXPECT_NE(refusal(bytes).find(sense(1)), std::string::npos) << refusal(bytes);
+}
+
 TEST(MapReader, MayReadInSeveralThreads) {
   const TemporaryFile file(everything().SerializeAsString());
   std::vector<std::thread> threads;

@@ -13,7 +13,7 @@ class Polyline {
  public:
   /// Points nearer than 1 mm to their predecessor are dropped.
   /// @throws std::invalid_argument  a point is not plausible (pose.h), or fewer than two distinct points are left.
-  explicit Polyline(const std::vector<Point2d>& points);
+  explicit Polyline(std::vector<Point2d> points);
 
   const std::vector<Point2d>& points() const { return points_; }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "corner.h"
 #include "external_command/core/polyline.h"
@@ -93,7 +94,7 @@ class LapBuilder {
     const Point2d last = (points.back() - points[points.size() - 2]).normalized();
     if (bend.turn > 0.0) points.insert(points.begin(), points.front() - field_.width() * first);
     if (next.turn > 0.0) points.push_back(points.back() + field_.width() * last);
-    return Polyline(points);
+    return Polyline(std::move(points));
   }
 
   /// The free parts of `line`. What blocks it between two of them is passed like an edge of the border.
