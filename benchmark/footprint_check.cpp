@@ -8,6 +8,8 @@
 #include <boost/geometry/index/rtree.hpp>
 #include <limits>
 
+#include "../src/core/boost_point.h"
+
 namespace external_command {
 namespace benchmark {
 
@@ -15,17 +17,14 @@ namespace {
 
 namespace bg = boost::geometry;
 namespace bgi = boost::geometry::index;
-using BoostPoint = bg::model::d2::point_xy<double>;
-using Box = bg::model::box<BoostPoint>;
-using Segment = bg::model::segment<BoostPoint>;
+using Box = bg::model::box<Point2d>;
+using Segment = bg::model::segment<Point2d>;
 
 struct Edge {
   Point2d a, b;
   std::size_t ring;
 };
 using Entry = std::pair<Segment, std::size_t>;
-
-Box boxOf(const Point2d& low, const Point2d& high) { return {{low.x(), low.y()}, {high.x(), high.y()}}; }
 
 }  // namespace
 
@@ -36,7 +35,7 @@ struct FootprintCheck::Borders {
       const Ring& points = rings[ring];
       for (std::size_t i = 0; i < points.size(); ++i) {
         const Point2d &a = points[i], &b = points[(i + 1) % points.size()];
-        entries.emplace_back(Segment({a.x(), a.y()}, {b.x(), b.y()}), edges.size());
+        entries.emplace_back(Segment(a, b), edges.size());
         edges.push_back({a, b, ring});
         right = std::max(right, a.x());
       }
@@ -49,7 +48,7 @@ struct FootprintCheck::Borders {
   template <class Visit>
   bool any(const Point2d& low, const Point2d& high, const Visit& visit) const {
     const auto last = tree.qend();
-    for (auto entry = tree.qbegin(bgi::intersects(boxOf(low, high))); entry != last; ++entry) {
+    for (auto entry = tree.qbegin(bgi::intersects(Box(low, high))); entry != last; ++entry) {
       if (visit(edges[entry->second])) return true;
     }
     return false;
@@ -80,7 +79,7 @@ bool FootprintCheck::isInside(const Pose2d& pose) const {
 
 double FootprintCheck::freeDistance(const Pose2d& pose) const {
   const Point2d position = pose.position();
-  const auto nearest = borders_->tree.qbegin(bgi::nearest(BoostPoint(position.x(), position.y()), 1));
+  const auto nearest = borders_->tree.qbegin(bgi::nearest(position, 1));
   const Edge& edge = borders_->edges[nearest->second];
   return std::max(0.0, (nearestOnSegment(position, edge.a, edge.b) - position).norm() - radius_);
 }

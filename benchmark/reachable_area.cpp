@@ -4,28 +4,29 @@
 #include <algorithm>
 #include <boost/geometry.hpp>
 
+#include "../src/core/boost_point.h"
+
 namespace external_command {
 namespace benchmark {
 
 namespace {
 
 namespace bg = boost::geometry;
-using BoostPoint = bg::model::d2::point_xy<double>;
-using Shape = bg::model::polygon<BoostPoint>;
+using Shape = bg::model::polygon<Point2d>;
 using Shapes = bg::model::multi_polygon<Shape>;
 
 constexpr std::size_t kPointsPerCircle = 128;
 
 Shape shapeOf(const Ring& ring, const Point2d& origin) {
   Shape shape;
-  for (const Point2d& point : ring) shape.outer().emplace_back(point.x() - origin.x(), point.y() - origin.y());
+  for (const Point2d& point : ring) shape.outer().push_back(point - origin);
   bg::correct(shape);
   return shape;
 }
 
 Ring ringOf(const Shape::ring_type& ring, const Point2d& origin) {
   Ring result;
-  for (std::size_t i = 0; i + 1 < ring.size(); ++i) result.push_back(origin + Point2d(ring[i].x(), ring[i].y()));
+  for (std::size_t i = 0; i + 1 < ring.size(); ++i) result.push_back(origin + ring[i]);
   return result;
 }
 
@@ -57,7 +58,7 @@ std::vector<Ring> reachableArea(const CoverageCase& field, const Point2d& start)
   const double width = std::max(field.vehicle.width, field.swath_width);
   const Shapes core = grown(freeShapes(field, origin), -width / 2.0);
   if (core.empty()) return {};
-  const BoostPoint at(start.x() - origin.x(), start.y() - origin.y());
+  const Point2d at = start - origin;
   const auto is_nearer = [&](const Shape& a, const Shape& b) { return bg::distance(at, a) < bg::distance(at, b); };
   const Shapes swept = grown(Shapes{*std::min_element(core.begin(), core.end(), is_nearer)}, field.swath_width / 2.0);
   std::vector<Ring> rings;

@@ -5,11 +5,11 @@
 #include <boost/geometry.hpp>
 #include <boost/geometry/geometries/linestring.hpp>
 #include <boost/geometry/geometries/multi_polygon.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/polygon.hpp>
 #include <optional>
 #include <utility>
 
+#include "core/boost_point.h"
 #include "external_command/core/error.h"
 
 namespace external_command {
@@ -17,12 +17,11 @@ namespace external_command {
 namespace {
 
 namespace bg = boost::geometry;
-using BoostPoint = bg::model::d2::point_xy<double>;
-using BoostPolygon = bg::model::polygon<BoostPoint, false, true>;
+using BoostPolygon = bg::model::polygon<Point2d, false, true>;
 using BoostRing = BoostPolygon::ring_type;
 using BoostMultiPolygon = bg::model::multi_polygon<BoostPolygon>;
 
-using BoostLine = bg::model::linestring<BoostPoint>;
+using BoostLine = bg::model::linestring<Point2d>;
 
 constexpr double kTouching = 0.3;      // by which every lane is widened [m]
 constexpr double kSimplified = 0.03;   // tolerance of the centre line [m]
@@ -35,16 +34,14 @@ constexpr int kNudges = 5;
 /// Coordinates relative to `center`, where they are small.
 BoostPolygon toBoost(const std::vector<Point2d>& points, const Point2d& center) {
   BoostPolygon polygon;
-  for (const Point2d& point : points) {
-    polygon.outer().emplace_back(point.x() - center.x(), point.y() - center.y());
-  }
+  for (const Point2d& point : points) polygon.outer().push_back(point - center);
   bg::correct(polygon);
   return polygon;
 }
 
 std::vector<Point2d> fromBoost(const BoostRing& ring, const Point2d& center) {
   std::vector<Point2d> points;
-  for (std::size_t i = 0; i + 1 < ring.size(); ++i) points.push_back(center + Point2d(ring[i].x(), ring[i].y()));
+  for (std::size_t i = 0; i + 1 < ring.size(); ++i) points.push_back(center + ring[i]);
   return points;
 }
 
@@ -55,7 +52,7 @@ BoostMultiPolygon widened(const Lane& lane, double s, double radius, double half
   if (to - from < kTouching) return surface;
   BoostLine dense, line;
   const Polyline part = lane.center.slice(from, to);
-  for (const Point2d& point : part.points()) dense.emplace_back(point.x() - center.x(), point.y() - center.y());
+  for (const Point2d& point : part.points()) dense.push_back(point - center);
   bg::simplify(dense, line, kSimplified);
   using namespace bg::strategy::buffer;
   bg::buffer(line, surface, distance_symmetric<double>(half_width), side_straight(), join_round(kPointsPerCircle),
@@ -94,9 +91,7 @@ void add(const Lane& lane, double s, double radius, double extra, const Point2d&
 const BoostPolygon& partWith(const Polygon& core, const BoostMultiPolygon& whole, const Point2d& center) {
   Point2d inside = Point2d::Zero();
   for (const Point2d& corner : core.points()) inside += (corner - center) / static_cast<double>(core.points().size());
-  const auto holds = [&](const BoostPolygon& part) {
-    return bg::within(BoostPoint(inside.x(), inside.y()), part.outer());
-  };
+  const auto holds = [&](const BoostPolygon& part) { return bg::within(inside, part.outer()); };
   const auto found = std::find_if(whole.begin(), whole.end(), holds);
   if (found != whole.end()) return *found;
   return *std::max_element(whole.begin(), whole.end(),

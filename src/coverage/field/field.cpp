@@ -143,8 +143,7 @@ void Field::setGoal() {
     part = only(*std::max_element(core.begin(), core.end(), smaller));
   }
   goal_ = intersection(grown(part, tool, checkpoint()), free_);
-  const auto& inside = part.front().outer().front();
-  workable_ = partAt(free_, Point2d(inside.x(), inside.y()));
+  workable_ = partAt(free_, part.front().outer().front());
 }
 
 bool Field::isFree(const Curve& curve) const {

@@ -14,7 +14,6 @@
 namespace external_command {
 
 namespace bg = boost::geometry;
-using shapes::Point;
 using shapes::Ring;
 using shapes::Shape;
 using shapes::Shapes;
@@ -56,7 +55,7 @@ bool isPlausible(const Shape& before, const Shapes& after, double distance) {
   const double change = (distance > 0.0 ? 1.0 : -1.0) * (bg::area(after) - bg::area(before));
   const double most = std::max(bg::perimeter(before), bg::perimeter(after)) * width + M_PI * width * width;
   if (change < -kSpeck || change > 1.05 * most + kSpeck) return false;
-  const bg::model::linestring<Point> border(before.outer().begin(), before.outer().end());
+  const bg::model::linestring<Point2d> border(before.outer().begin(), before.outer().end());
   for (const Shape& shape : after) {
     const std::size_t stride = std::max<std::size_t>(1, shape.outer().size() / 40);
     for (std::size_t i = 0; i < shape.outer().size(); i += stride) {
@@ -100,15 +99,14 @@ Shapes withRingsMoved(const Shape& shape, double border_outwards, double holes_o
 }  // namespace
 
 std::vector<Point2d> pointsOf(const Ring& ring) {
-  std::vector<Point2d> points;
-  points.reserve(ring.size());
-  for (std::size_t i = 0; i + 1 < ring.size(); ++i) points.emplace_back(ring[i].x(), ring[i].y());
+  std::vector<Point2d> points = ring;
+  if (!points.empty()) points.pop_back();
   return points;
 }
 
 Shape shapeOf(const std::vector<Point2d>& points) {
   Shape shape;
-  for (const Point2d& point : points) shape.outer().emplace_back(point.x(), point.y());
+  shape.outer().assign(points.begin(), points.end());
   bg::correct(shape);
   return shape;
 }
@@ -186,11 +184,10 @@ Shapes inset(const Shapes& area, double border, double holes, const Checkpoint& 
 }
 
 Shapes partAt(const Shapes& of, const Point2d& point) {
-  const Point at(point.x(), point.y());
   Shapes best;
   double nearest = std::numeric_limits<double>::infinity();
   for (const Shape& shape : of) {
-    const double distance = bg::distance(at, shape);
+    const double distance = bg::distance(point, shape);
     if (distance >= nearest) continue;
     nearest = distance;
     best = only(shape);

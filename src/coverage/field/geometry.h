@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <boost/geometry/core/cs.hpp>
 #include <boost/geometry/geometries/multi_polygon.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/polygon.hpp>
 #include <boost/geometry/geometries/ring.hpp>
 #include <vector>
 
+#include "core/boost_point.h"
 #include "external_command/core/cancel_token.h"
 #include "external_command/core/pose.h"
 
@@ -18,9 +17,8 @@ struct CoverageArea;
 /// Shapes with holes, borders counter-clockwise, holes clockwise (what is free lies to the left of every ring), closed.
 /// Only geometry.cpp includes the algorithms of Boost.Geometry, which are slow to compile.
 namespace shapes {
-using Point = boost::geometry::model::d2::point_xy<double>;
-using Ring = boost::geometry::model::ring<Point, false, true>;
-using Shape = boost::geometry::model::polygon<Point, false, true>;
+using Ring = boost::geometry::model::ring<Point2d, false, true>;
+using Shape = boost::geometry::model::polygon<Point2d, false, true>;
 using Shapes = boost::geometry::model::multi_polygon<Shape>;
 }  // namespace shapes
 

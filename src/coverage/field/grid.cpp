@@ -10,11 +10,10 @@ CoverageGrid::CoverageGrid(const BoundingBox& box, double cell)
       rows_(static_cast<int>((box.max.y() - box.min.y()) / cell) + 3),
       cells_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0) {}
 
-template <class Ring>
-void CoverageGrid::addEdges(const Ring& ring, std::vector<RowEdge>* edges) const {
+void CoverageGrid::addEdges(const shapes::Ring& ring, std::vector<RowEdge>* edges) const {
   for (std::size_t i = 1; i < ring.size(); ++i) {
-    const Point2d a = (Point2d(ring[i - 1].x(), ring[i - 1].y()) - corner_) / cell_ - Point2d(0.5, 0.5);
-    const Point2d b = (Point2d(ring[i].x(), ring[i].y()) - corner_) / cell_ - Point2d(0.5, 0.5);
+    const Point2d a = (ring[i - 1] - corner_) / cell_ - Point2d(0.5, 0.5);
+    const Point2d b = (ring[i] - corner_) / cell_ - Point2d(0.5, 0.5);
     const int first = std::max(0, static_cast<int>(std::ceil(std::min(a.y(), b.y()))));
     const int last = std::min(rows_ - 1, static_cast<int>(std::ceil(std::max(a.y(), b.y()))) - 1);
     if (first <= last) edges->push_back({first, last, a, b - a});

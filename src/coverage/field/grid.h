@@ -76,8 +76,7 @@ class CoverageGrid {
     Point2d along;
   };
 
-  template <class Ring>
-  void addEdges(const Ring& ring, std::vector<RowEdge>* edges) const;
+  void addEdges(const shapes::Ring& ring, std::vector<RowEdge>* edges) const;
 
   std::size_t index(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);

@@ -83,9 +83,7 @@ class Outliner {
   /// A polygon has no holes: a shape around free room, a fence for example, is cut in two across it.
   void addOutlines(const shapes::Shape& shape, std::vector<Polygon>* polygons) const {
     checkpoint_();
-    const auto is_room = [](const auto& ring) {
-      return std::abs(areaOf(shapes::Ring(ring.begin(), ring.end()))) > kRoom;
-    };
+    const auto is_room = [](const shapes::Ring& ring) { return std::abs(areaOf(ring)) > kRoom; };
     const auto room = std::find_if(shape.inners().begin(), shape.inners().end(), is_room);
     if (room == shape.inners().end()) return polygons->push_back(outlineOf(shape));
     const BoundingBox outer = boxOf(shape.outer()), inner = boxOf(*room);
@@ -113,12 +111,11 @@ class Outliner {
     }
   }
 
-  template <class Ring>
-  static BoundingBox boxOf(const Ring& ring) {
-    BoundingBox box{Point2d(ring[0].x(), ring[0].y()), Point2d(ring[0].x(), ring[0].y())};
-    for (const auto& point : ring) {
-      box.min = box.min.cwiseMin(Point2d(point.x(), point.y()));
-      box.max = box.max.cwiseMax(Point2d(point.x(), point.y()));
+  static BoundingBox boxOf(const shapes::Ring& ring) {
+    BoundingBox box{ring[0], ring[0]};
+    for (const Point2d& point : ring) {
+      box.min = box.min.cwiseMin(point);
+      box.max = box.max.cwiseMax(point);
     }
     return box;
   }

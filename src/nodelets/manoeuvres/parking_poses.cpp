@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <boost/geometry.hpp>
 #include <boost/geometry/geometries/multi_point.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/polygon.hpp>
 
+#include "core/boost_point.h"
 #include "external_command/core/text.h"
 
 namespace external_command {
@@ -16,8 +16,6 @@ namespace {
 constexpr double kSlack = 0.02;  // beyond the margin, so that rounding does not block a goal [m]
 constexpr double kEasy = 0.03;   // beyond the margin, wished for where the vehicle is moved aside anyway [m]
 constexpr int kSteps = 8;        // of the tolerances to either side, that are tried
-
-using BoostPoint = boost::geometry::model::d2::point_xy<double>;
 
 ParkingDirection readDirection(const ParameterReader& reader) {
   std::string word = "cheaper";
@@ -130,17 +128,17 @@ Pose2d ParkingSpot::offsetOf(const Pose2d& pose) const {
 }
 
 Polygon ParkingSpot::placeFor(const std::vector<Pose2d>& parked) const {
-  boost::geometry::model::multi_point<BoostPoint> points;
+  boost::geometry::model::multi_point<Point2d> points;
   const Point2d origin = middle_.position();  // UTM coordinates would eat the digits
-  const auto add = [&](const Point2d& point) { points.emplace_back(point.x() - origin.x(), point.y() - origin.y()); };
+  const auto add = [&](const Point2d& point) { points.push_back(point - origin); };
   for (const Point2d& corner : space_.polygon.points()) add(corner);
   for (const Pose2d& pose : parked) {
     for (const Point2d& corner : footprintAt(vehicle_, pose, margin_ + kSlack)) add(corner);
   }
-  boost::geometry::model::polygon<BoostPoint> hull;
+  boost::geometry::model::polygon<Point2d> hull;
   boost::geometry::convex_hull(points, hull);
   std::vector<Point2d> corners;
-  for (const BoostPoint& point : hull.outer()) corners.push_back(origin + Point2d(point.x(), point.y()));
+  for (const Point2d& point : hull.outer()) corners.push_back(origin + point);
   return Polygon(corners, text("parking space ", space_.id));
 }
 
