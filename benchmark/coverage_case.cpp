@@ -105,16 +105,6 @@ class Reader {
 
 }  // namespace
 
-VehicleParams tractor() {
-  VehicleParams vehicle;
-  vehicle.wheelbase = 2.5;
-  vehicle.width = 2.0;
-  vehicle.front_overhang = 0.8;
-  vehicle.rear_overhang = 0.9;
-  vehicle.min_turning_radius = 5.0;
-  return vehicle;
-}
-
 CoverageArea CoverageCase::area() const {
   CoverageArea area{Polygon(rings.at(0), name), {}};
   for (std::size_t i = 1; i < rings.size(); ++i) area.holes.emplace_back(rings[i], text(name, ", hole ", i));

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "external_command/core/vehicle.h"
+#include "../test/support/vehicles.h"
 #include "external_command/coverage/coverage_planner.h"
 
 namespace external_command {
@@ -25,9 +25,7 @@ struct CoverageCase {
   CoverageArea area() const;
 };
 
-/// About the size of a small tractor: for what a file leaves out.
-VehicleParams tractor();
-constexpr double kTractorSwath = 4.0;  // [m]
+constexpr double kTractorSwath = 4.0;  ///< of a tractor(), for what a file leaves out [m]
 
 /// The polygons of a GeoJSON file (FeatureCollection, Feature or bare geometry; of a MultiPolygon, each), planar
 /// coordinates [m]. Properties, each of which may be left out: `name`, `swath_width`, `start` [x, y, theta] of the

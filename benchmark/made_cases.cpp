@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "../test/support/vehicles.h"
 #include "external_command/core/text.h"
 #include "external_command/motion/collision_checker.h"
 
@@ -20,26 +21,6 @@ constexpr double kAisle = 6.5;       // [m]
 constexpr double kClearance = 0.25;  ///< of starts and goals, where posts stand at random [m]
 
 using Points = std::vector<Point2d>;
-
-VehicleParams car() {
-  VehicleParams vehicle;
-  vehicle.wheelbase = 2.8;
-  vehicle.width = 1.9;
-  vehicle.front_overhang = 0.95;
-  vehicle.rear_overhang = 0.95;
-  vehicle.min_turning_radius = 5.0;
-  return vehicle;
-}
-
-VehicleParams lorry() {
-  VehicleParams vehicle;
-  vehicle.wheelbase = 5.0;
-  vehicle.width = 2.5;
-  vehicle.front_overhang = 1.4;
-  vehicle.rear_overhang = 2.2;
-  vehicle.min_turning_radius = 7.5;
-  return vehicle;
-}
 
 /// All that is random is drawn here, so that each case depends on those before it, and on the seed.
 class CaseMaker {

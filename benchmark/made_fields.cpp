@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "../test/support/vehicles.h"
 #include "external_command/core/text.h"
 #include "external_command/motion/collision_checker.h"
 
@@ -16,16 +17,6 @@ namespace {
 constexpr double kSweeperUpTo = 160.0;   ///< the longer side of the fields that a sweeper does [m]
 constexpr double kStartClearance = 0.3;  // [m]
 constexpr double kHoleClearance = 1.0;   ///< between holes, and to the border [m]
-
-VehicleParams sweeper() {
-  VehicleParams vehicle;
-  vehicle.wheelbase = 1.6;
-  vehicle.width = 1.3;
-  vehicle.front_overhang = 0.5;
-  vehicle.rear_overhang = 0.5;
-  vehicle.min_turning_radius = 2.5;
-  return vehicle;
-}
 
 constexpr double kSweeperSwath = 1.6;  // [m]
 

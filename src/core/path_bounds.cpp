@@ -2,6 +2,7 @@
 #include "external_command/core/path_bounds.h"
 
 #include "external_command/core/error.h"
+#include "external_command/core/parameter_range.h"
 #include "external_command/core/text.h"
 
 namespace external_command {
@@ -9,21 +10,14 @@ namespace external_command {
 namespace {
 
 constexpr double kLongest = 1e7;  // [m]
-constexpr std::size_t kMostPoints = 10000000;
+constexpr double kMostPoints = 1e7;
 
 }  // namespace
 
 void PathBounds::validate() const {
-  if (!(max_length >= 1.0 && max_length <= kLongest)) {
-    throw InvalidParameter(text("max_path_length is ", max_length, "; it must lie in [1, ", kLongest, "]"));
-  }
-  if (!(max_start_distance >= 0.0 && max_start_distance <= kLongest)) {
-    throw InvalidParameter(
-        text("max_path_start_distance is ", max_start_distance, "; it must lie in [0, ", kLongest, "]"));
-  }
-  if (max_points < 2 || max_points > kMostPoints) {
-    throw InvalidParameter(text("max_path_points is ", max_points, "; it must lie in [2, ", kMostPoints, "]"));
-  }
+  requireParameter("max_path_length", max_length, 1.0, kLongest);
+  requireParameter("max_path_start_distance", max_start_distance, 0.0, kLongest);
+  requireParameter("max_path_points", static_cast<double>(max_points), 2.0, kMostPoints);
 }
 
 void PathBounds::require(double length, double points) const {

@@ -8,8 +8,7 @@ namespace external_command {
 
 namespace {
 
-constexpr double kEmptyArc = 1e-9;  ///< [m]
-constexpr double kLongArc = 1.0;    ///< whose middle is worth a look of its own [m]
+constexpr double kLongArc = 1.0;  ///< whose middle is worth a look of its own [m]
 
 }  // namespace
 

@@ -3,8 +3,7 @@
 
 #include <algorithm>
 
-#include "external_command/core/error.h"
-#include "external_command/core/text.h"
+#include "external_command/core/parameter_range.h"
 #include "lane_search.h"
 #include "map_content.h"
 #include "map_resolver.h"
@@ -27,12 +26,8 @@ struct HdMap::Content {
 };
 
 void MapParams::validate() const {
-  const auto require = [](const char* key, double value, double low, double high) {
-    if (value >= low && value <= high) return;  // false for NaN
-    throw InvalidParameter(text(key, " is ", value, "; it must lie in [", low, ", ", high, "] m"));
-  };
-  require("max_link_gap", max_link_gap, 0.0, 1000.0);
-  require("max_segment_length", max_segment_length, 1.0, 1e6);
+  requireParameter("max_link_gap", max_link_gap, 0.0, 1000.0);
+  requireParameter("max_segment_length", max_segment_length, 1.0, 1e6);
 }
 
 HdMap::HdMap(MapData data, const Point2d& origin, const MapParams& params)

@@ -5,8 +5,7 @@
 #include <utility>
 
 #include "collision_probe.h"
-#include "external_command/core/error.h"
-#include "external_command/core/text.h"
+#include "external_command/core/parameter_range.h"
 #include "footprint_index.h"
 
 namespace external_command {
@@ -43,9 +42,7 @@ struct CollisionChecker::Impl {
 CollisionChecker::CollisionChecker(const VehicleParams& vehicle, double margin, const Region& region,
                                    const Checkpoint& checkpoint, const std::vector<Pose2d>& eased_at) {
   vehicle.validate();
-  if (!(margin >= 0.0 && margin <= 5.0)) {
-    throw InvalidParameter(text("margin is ", margin, " m; it must lie in [0, 5]"));
-  }
+  requireParameter("margin", margin, 0.0, 5.0);
   impl_ = std::make_unique<const Impl>(vehicle, margin, region, eased_at, checkpoint);
 }
 

@@ -10,8 +10,6 @@ namespace external_command {
 
 namespace {
 
-constexpr double kEmptyArc = 1e-9;  // [m]
-
 using MakeWords = void (*)(const Pose2d&, const Pose2d&, const WordQuery&, WordSet*);
 
 std::vector<ArcSegment> shortest(MakeWords make, const Pose2d& from, const Pose2d& to, double radius) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "external_command/core/error.h"
+#include "external_command/core/parameter_range.h"
 #include "external_command/core/text.h"
 
 namespace external_command {
@@ -40,12 +41,8 @@ void validate(const BoundingBox& box) {
 }  // namespace
 
 void RegionLimits::validate() const {
-  const auto require = [](const char* key, std::size_t value, std::size_t high) {
-    if (value >= 4 && value <= high) return;
-    throw InvalidParameter(text(key, " is ", value, "; it must lie in [4, ", high, "]"));
-  };
-  require("max_edges", max_edges, 100'000'000);
-  require("max_near_edges", max_near_edges, 1'000'000'000);
+  requireParameter("max_edges", static_cast<double>(max_edges), 4.0, 1e8);
+  requireParameter("max_near_edges", static_cast<double>(max_near_edges), 4.0, 1e9);
 }
 
 Region::Region(Parts parts) : parts_(std::move(parts)) {

@@ -15,7 +15,6 @@ constexpr double kHalfPi = M_PI / 2.0;
 constexpr double kZero = 1e-12;
 constexpr double kSameCircle = 1e-9;  ///< centres nearer than this are one
 constexpr double kFullCircle = 1e-8;  ///< a turn this little below zero is none, not a full circle [rad]
-constexpr double kShortest = 1e-9;    ///< arcs below this are left out [m]
 
 enum Steer : int { kR = -1, kS = 0, kL = 1 };
 
@@ -68,7 +67,7 @@ class Collector {
     double cost = 0.0, kappa = junctions.kappa_before;
     for (std::size_t i = 0; i < kSize; ++i) {
       const double length = lengths[i] * flip * query_.radius;
-      if (std::abs(length) < kShortest) continue;
+      if (std::abs(length) < kEmptyArc) continue;
       const int now = length > 0.0 ? 1 : -1;
       const ArcSegment arc{length, steer[i] * mirror / query_.radius};
       if (gear == now) cost += query_.cost.ofSteering(kappa, arc.kappa);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "external_command/core/parameter_range.h"
 #include "external_command/core/text.h"
 #include "external_command/ros/status.h"
 
@@ -28,8 +29,7 @@ bool changesGear(const Path& path, std::size_t i) {
 
 void MotionWatchParams::validate() const {
   tolerances.validate();
-  if (silence >= 0.0 && silence <= 3600.0) return;
-  throw InvalidParameter(text("silence is ", silence, "; it must lie in [0, 3600]"));
+  requireParameter("silence", silence, 0.0, 3600.0);
 }
 
 const Pose2d& PlanStart::pose() const {

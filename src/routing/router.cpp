@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "blocked_lanes.h"
+#include "external_command/core/parameter_range.h"
 #include "external_command/core/text.h"
 #include "lane_graph.h"
 #include "no_route.h"
@@ -82,21 +83,11 @@ void warnOfGoalBehind(const HdMap& map, const LanePoint& goal, double stopping_e
 }  // namespace
 
 void RouterParams::validate() const {
-  for (const auto& [key, price] : {std::pair("lane_change_price", lane_change_price),
-                                   std::pair("tight_lane_change_price", tight_lane_change_price)}) {
-    if (price >= 0.0 && price <= 1e6) continue;  // false for NaN
-    throw InvalidParameter(text(key, " is ", price, "; it must lie in [0, 1000000] m"));
-  }
-  if (!(min_lane_change_length >= 0.1 && min_lane_change_length <= 1000.0)) {
-    throw InvalidParameter(
-        text("min_lane_change_length is ", min_lane_change_length, "; it must lie in [0.1, 1000] m"));
-  }
-  if (!(stopping_error >= 0.0 && stopping_error <= 10.0)) {
-    throw InvalidParameter(text("stopping_error is ", stopping_error, "; it must lie in [0, 10] m"));
-  }
-  if (!(min_turning_radius >= 0.1 && min_turning_radius <= 100.0)) {
-    throw InvalidParameter(text("min_turning_radius is ", min_turning_radius, "; it must lie in [0.1, 100] m"));
-  }
+  requireParameter("lane_change_price", lane_change_price, 0.0, 1e6);
+  requireParameter("tight_lane_change_price", tight_lane_change_price, 0.0, 1e6);
+  requireParameter("min_lane_change_length", min_lane_change_length, 0.1, 1000.0);
+  requireParameter("stopping_error", stopping_error, 0.0, 10.0);
+  requireParameter("min_turning_radius", min_turning_radius, 0.1, 100.0);
 }
 
 struct Router::Impl {

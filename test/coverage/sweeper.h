@@ -7,19 +7,9 @@
 
 #include "external_command/coverage/coverage_planner.h"
 #include "external_command/motion/collision_checker.h"
+#include "support/vehicles.h"
 
 namespace external_command {
-
-/// A small sweeper, 2.6 m long and 1.3 m wide, that turns at 2.5 m.
-inline VehicleParams sweeper() {
-  VehicleParams vehicle;
-  vehicle.wheelbase = 1.6;
-  vehicle.width = 1.3;
-  vehicle.front_overhang = 0.5;
-  vehicle.rear_overhang = 0.5;
-  vehicle.min_turning_radius = 2.5;
-  return vehicle;
-}
 
 inline Polygon box(double x0, double y0, double x1, double y1) {
   return Polygon({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, "box");

@@ -95,13 +95,7 @@ TEST(FreeSpacePlanner, PassesAGateInsideABorder) {
 }
 
 TEST(FreeSpacePlanner, ParksALorry) {
-  VehicleParams lorry;
-  lorry.wheelbase = 5.0;
-  lorry.width = 2.5;
-  lorry.front_overhang = 1.4;
-  lorry.rear_overhang = 2.2;
-  lorry.min_turning_radius = 7.5;
-  const ParkingWorld world = bay(0.8, lorry);
+  const ParkingWorld world = bay(0.8, lorry());
   EXPECT_TRUE(isValid(planned(world, quickParams()), world, quickParams()));
 }
 

@@ -33,16 +33,6 @@ ParkingWorld worldOf(const VehicleParams& vehicle, const Pose2d& start, const Po
 
 }  // namespace
 
-VehicleParams smallCar() {
-  VehicleParams vehicle;
-  vehicle.wheelbase = 2.8;
-  vehicle.width = 1.94;
-  vehicle.front_overhang = 0.96;
-  vehicle.rear_overhang = 0.93;
-  vehicle.min_turning_radius = 3.0;
-  return vehicle;
-}
-
 Polygon box(const Point2d& centre, double length, double width, double heading) {
   std::vector<Point2d> points;
   for (const auto& [u, v] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}) {
@@ -116,8 +106,8 @@ std::vector<ParkingWorld> randomWorlds(unsigned seed, std::size_t count) {
     parts.drivable = world.region.drivable();
     parts.non_drivable = world.region.nonDrivable();
     for (int i = 0; i < 3; ++i) {
-      parts.non_drivable.push_back(box({uniform(-10.0, 20.0), uniform(-10.0, 20.0)}, uniform(0.3, 2.0),
-                                       uniform(0.3, 2.0), uniform(0.0, M_PI)));
+      parts.non_drivable.push_back(
+          box({uniform(-10.0, 20.0), uniform(-10.0, 20.0)}, uniform(0.3, 2.0), uniform(0.3, 2.0), uniform(0.0, M_PI)));
     }
     world = worldOf(vehicle, world.start, world.goal, std::move(parts));
     const bool is_free = referenceClearance(vehicle, world.start, world.region) > kFree &&

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "external_command/core/vehicle.h"
 #include "external_command/motion/region.h"
+#include "support/vehicles.h"
 
 namespace external_command {
 
@@ -15,9 +15,6 @@ struct ParkingWorld {
   Pose2d goal;
   Region region;
 };
-
-/// A car 4.7 m long and 1.94 m wide that turns at 3 m.
-VehicleParams smallCar();
 
 /// An upright rectangle around `centre`, turned by `heading`.
 Polygon box(const Point2d& centre, double length, double width, double heading = 0.0);

@@ -14,6 +14,8 @@ struct ArcSegment {
   double kappa = 0.0;   ///< signed, positive to the vehicle's left whatever the gear [1/m]
 };
 
+constexpr double kEmptyArc = 1e-9;  ///< what is shorter is rounding, and left out [m]
+
 /// One way to steer from a pose to another. `arcs` is empty where the two poses are the same.
 struct SteeringCurve {
   std::vector<ArcSegment> arcs;

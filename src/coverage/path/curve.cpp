@@ -10,7 +10,6 @@ namespace {
 
 constexpr double kSagitta = 0.005;  ///< of a strip's edge [m]
 constexpr int kRounds = 2;          ///< until a closed line is followed in the same way each time
-constexpr double kEmptyArc = 1e-9;  ///< [m]
 
 /// Pure pursuit along a polyline, the progress on which never goes back.
 class Follower {
