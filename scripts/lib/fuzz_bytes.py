@@ -87,9 +87,10 @@ def frame(fields):
 
 
 class RawCaller:
-    """One connection to a service, for requests that are only bytes."""
+    """One connection to a service, or one for each call, for requests that are only bytes."""
 
-    def __init__(self, name, service_class):
+    def __init__(self, name, service_class, persistent=True):
+        self._persistent = persistent
         self._address = rosservice.get_service_uri(name)
         self._name = name
         self._class = service_class
@@ -100,7 +101,7 @@ class RawCaller:
         self._socket = socket.create_connection((host, int(port)), ANSWER_LIMIT)
         self._socket.settimeout(ANSWER_LIMIT)
         self._socket.sendall(frame([b"service=" + self._name.encode(), b"md5sum=" + self._class._md5sum.encode(),
-                                    b"callerid=/raw", b"persistent=1"]))
+                                    b"callerid=/raw", b"persistent=%d" % self._persistent]))
         self._take(struct.unpack("<I", self._take(4))[0])
 
     def _take(self, size):
@@ -124,6 +125,8 @@ class RawCaller:
         self._socket.sendall(struct.pack("<I", len(data)) + data)
         is_ok = self._take(1) == b"\1"
         answer = self._take(struct.unpack("<I", self._take(4))[0])
+        if not self._persistent:
+            self.close()
         if not is_ok:
             raise OSError("the service failed: %r" % answer[:200])
         response = self._class._response_class()

@@ -5,6 +5,8 @@ import os
 import socket
 import struct
 import sys
+import threading
+import time
 import unittest
 import urllib.request
 
@@ -121,6 +123,33 @@ class HostileRequestsTest(unittest.TestCase):
                     self.assertEqual(connection.recv(1), b"", "the connection is closed")
             self.assert_stops(started)
             self.assertNotIn("TCPROS header", started.output)
+
+    def test_answers_each_call_while_others_connect_and_leave(self):
+        """roscpp would close one connection of a few thousand for what happened to the one before it."""
+        calls, lost = [], []
+
+        def call(service, end):
+            request = fuzz_bytes.serialized(SERVICES[service][0]._request_class())
+            caller = fuzz_bytes.RawCaller(NAMESPACE + "/external_command/" + service, SERVICES[service][0], False)
+            while time.monotonic() < end:
+                try:
+                    calls.append(caller.call(request).status.status)
+                except OSError as error:
+                    lost.append("%s: %s" % (service, error))
+                    caller.close()
+
+        with component() as started:
+            self.assert_stops(started)
+            for service, (service_class, _) in SERVICES.items():
+                support.service(NAMESPACE + "/external_command/" + service, service_class)
+            threads = [threading.Thread(target=call, args=(service, time.monotonic() + 10.0)) for service in SERVICES]
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+            self.assertEqual(lost, [], "of %d calls" % (len(calls) + len(lost)))
+            self.assertGreater(len(calls), 1000)
+            self.assert_stops(started)
 
     def test_refuses_calls_of_xml_rpc_that_nest_too_deep(self):
         """Every node has such a server; the parameter server's answers nest, too."""
