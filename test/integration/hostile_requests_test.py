@@ -148,7 +148,7 @@ class HostileRequestsTest(unittest.TestCase):
             for thread in threads:
                 thread.join()
             self.assertEqual(lost, [], "of %d calls" % (len(calls) + len(lost)))
-            self.assertGreater(len(calls), 1000)
+            self.assertGreater(len(calls), 100)
             self.assert_stops(started)
 
     def test_refuses_calls_of_xml_rpc_that_nest_too_deep(self):
