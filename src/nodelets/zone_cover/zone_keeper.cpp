@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "durable_file.h"
+#include "core/durable_file.h"
 #include "zone_text.h"
 
 namespace external_command {

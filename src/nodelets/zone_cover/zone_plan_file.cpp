@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zone_plan_file.h"
 
-#include <pwd.h>
-#include <signal.h>
-#include <unistd.h>
-
-#include <atomic>
 #include <cctype>
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <system_error>
 
-#include "durable_file.h"
+#include "core/durable_file.h"
+#include "external_command/ros/ros_folder.h"
 #include "zone_text.h"
 
 namespace external_command {
@@ -22,7 +16,6 @@ namespace external_command {
 namespace {
 
 constexpr std::size_t kMostOfName = 40;  // bytes of each part of a file's name
-constexpr const char* kTemporary = ".new";
 
 /// FNV-1a (G. Fowler, L. Noll, K.-P. Vo), 64 bits: the same in every build, unlike std::hash.
 class Digest {
@@ -68,25 +61,6 @@ std::string prefixOf(const std::string& vehicle_namespace) {
   return forFileName(begin == std::string::npos ? "" : vehicle_namespace.substr(begin), "root") + "-";
 }
 
-std::string homeFolder() {
-  if (const char* const home = std::getenv("HOME")) return home;
-  passwd entry{};
-  passwd* found = nullptr;
-  char buffer[4096];
-  return getpwuid_r(getuid(), &entry, buffer, sizeof buffer, &found) == 0 && found ? found->pw_dir : "/";
-}
-
-/// Whether the process that wrote NAME.PID-N.new may still be at it.
-bool isInUse(const std::string& name) {
-  const std::size_t dot = name.rfind('.', name.size() - std::string(kTemporary).size() - 1);
-  const long pid = dot == std::string::npos ? 0 : std::atol(name.c_str() + dot + 1);
-  return pid > 0 && pid != getpid() && (kill(static_cast<pid_t>(pid), 0) == 0 || errno == EPERM);
-}
-
-bool endsWith(const std::string& name, const std::string& end) {
-  return name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
-}
-
 }  // namespace
 
 ZoneKey zoneKey(const std::string& vehicle_namespace, const std::string& label, const CoverageArea& area,
@@ -105,15 +79,7 @@ ZoneKey zoneKey(const std::string& vehicle_namespace, const std::string& label, 
   return {prefixOf(vehicle_namespace) + forFileName(label, "polygon"), digest.value()};
 }
 
-std::string zoneFolder(const std::string& parameter) {
-  if (parameter.empty()) {
-    const char* const ros_home = std::getenv("ROS_HOME");
-    return (ros_home != nullptr && *ros_home != '\0' ? std::string(ros_home) : homeFolder() + "/.ros") +
-           "/external_command";
-  }
-  const bool is_home = parameter == "~" || parameter.compare(0, 2, "~/") == 0;
-  return is_home ? homeFolder() + parameter.substr(1) : parameter;
-}
+std::string zoneFolder(const std::string& parameter) { return rosFolder(parameter, "external_command"); }
 
 ZonePlanFile::ZonePlanFile(const std::string& folder, const ZoneKey& key) : digest_(key.digest) {
   char digits[17];
@@ -134,20 +100,10 @@ bool ZonePlanFile::isSetAside() const {
   return std::filesystem::exists(damagedPath(), failure);
 }
 
-std::string ZonePlanFile::temporaryPath() const {
-  static std::atomic<unsigned> count{0};
-  return path_ + "." + std::to_string(getpid()) + "-" + std::to_string(++count) + kTemporary;
-}
+std::string ZonePlanFile::temporaryPath() const { return durable_file::temporaryPath(path_); }
 
 void removeLeftovers(const std::string& folder, const std::string& vehicle_namespace) {
-  const std::string prefix = prefixOf(vehicle_namespace);
-  std::error_code failure;
-  for (std::filesystem::directory_iterator file(folder, failure), end; !failure && file != end;
-       file.increment(failure)) {
-    const std::string name = file->path().filename().string();
-    if (name.compare(0, prefix.size(), prefix) != 0 || !endsWith(name, kTemporary) || isInUse(name)) continue;
-    durable_file::remove(file->path().string());
-  }
+  durable_file::removeLeftovers(folder, prefixOf(vehicle_namespace), durable_file::OwnFiles::kLeft);
 }
 
 }  // namespace external_command

@@ -11,7 +11,6 @@
 #include <string>
 
 #include "external_command/core/error.h"
-#include "nodelets/zone_cover/durable_file.h"
 #include "nodelets/zone_cover/zone_text.h"
 #include "support/zone_plans.h"
 
@@ -127,29 +126,6 @@ TEST_F(ZonePlanFileTest, RemovesWhatAKilledProcessHasLeft) {
   EXPECT_TRUE(fs::exists(of_another));
   EXPECT_TRUE(fs::exists(file_.path()));
   removeLeftovers(folder_ + "/missing", "/courtyard");
-}
-
-TEST_F(ZonePlanFileTest, IsReplacedAsAWhole) {
-  const std::string temporary = file_.temporaryPath();
-  EXPECT_NE(temporary, file_.temporaryPath());
-  durable_file::create(temporary, {"one ", "two"});
-  EXPECT_FALSE(fs::exists(file_.path()));
-  durable_file::replace(file_.path(), temporary);
-  std::string content;
-  ASSERT_TRUE(durable_file::read(file_.path(), 100, &content));
-  EXPECT_EQ(content, "one two");
-  EXPECT_FALSE(fs::exists(temporary));
-}
-
-TEST_F(ZonePlanFileTest, TellsWhyItCannotBeWritten) {
-  fs::create_directories(folder_);
-  std::ofstream(folder_ + "/file") << "x";
-  try {
-    durable_file::create(folder_ + "/file/zone", {"x"});
-    FAIL() << "written";
-  } catch (const InternalError& error) {
-    EXPECT_NE(std::string(error.what()).find("Not a directory"), std::string::npos) << error.what();
-  }
 }
 
 }  // namespace
