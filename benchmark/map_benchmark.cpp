@@ -2,21 +2,26 @@
 //
 // map_benchmark FILE...
 // Measures, for each map file, how long loading takes beside protobuf's own parsing of the same bytes, how much memory
-// the loaded map needs and how long a nearest-lane query takes. Prints one JSON array.
+// the loaded map needs and how long a nearest-lane query takes; and of a large map how long it takes until routes can
+// be searched, at a first start and from the cache at the next one. Prints one JSON array.
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <iterator>
 #include <random>
 #include <sstream>
+#include <system_error>
 
 #include "external_command/map/map_reader.h"
 #include "external_command/proto/base_map.pb.h"
+#include "external_command/routing/router_cache.h"
 
 namespace external_command {
 namespace {
@@ -42,12 +47,13 @@ double medianTime(const Function& function) {
   return *middle;
 }
 
-/// Resident memory of this process [bytes].
-double residentBytes() {
-  std::ifstream in("/proc/self/statm");
-  double total = 0.0, resident = 0.0;
-  in >> total >> resident;
-  return resident * static_cast<double>(::sysconf(_SC_PAGESIZE));
+/// Resident memory of this process [bytes], as /proc/self/status has it: now, VmRSS, or at most, VmHWM.
+double residentBytes(const std::string& key = "VmRSS") {
+  std::ifstream in("/proc/self/status");
+  for (std::string line; std::getline(in, line);) {
+    if (line.rfind(key + ":", 0) == 0) return std::stod(line.substr(key.size() + 1)) * 1024.0;
+  }
+  return 0.0;
 }
 
 /// Duration [s] of protobuf's parsing into a message of this package's description; negative for a text file.
@@ -73,7 +79,74 @@ double queryTime(const HdMap& map) {
   return found == 0 ? -1.0 : (now() - start) / kQueries;
 }
 
+/// A folder that exists as long as this object does.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() : path_((std::filesystem::temp_directory_path() / "map_benchmark_XXXXXX").string()) {
+    if (::mkdtemp(&path_[0]) == nullptr) throw std::system_error(errno, std::generic_category(), path_);
+  }
+  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+struct Start {
+  double time;               ///< [s]
+  double resident, highest;  ///< memory afterwards, and at most meanwhile [bytes]
+};
+
+/// One start in a process of its own, which keeps the router where `cache` is given.
+Start startOf(const std::function<std::shared_ptr<const Router>()>& start, const RouterCache* cache) {
+  int ends[2];
+  if (::pipe(ends) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const double begin = now();
+    const auto router = start();
+    Start measured{now() - begin, residentBytes(), residentBytes("VmHWM")};
+    if (!router) measured.time = -1.0;
+    if (router && cache != nullptr) cache->write(*router, CancelToken());
+    ::_exit(::write(ends[1], &measured, sizeof measured) == sizeof measured ? 0 : 1);
+  }
+  ::close(ends[1]);
+  Start measured{-1.0, 0.0, 0.0};
+  if (::read(ends[0], &measured, sizeof measured) != sizeof measured) measured.time = -1.0;
+  ::close(ends[0]);
+  ::waitpid(child, nullptr, 0);
+  return measured;
+}
+
+/// The one in the middle by time, of three.
+Start medianStart(const std::function<std::shared_ptr<const Router>()>& start, const RouterCache* cache) {
+  std::vector<Start> starts;
+  for (int i = 0; i < 3; ++i) starts.push_back(startOf(start, cache));
+  std::sort(starts.begin(), starts.end(), [](const Start& a, const Start& b) { return a.time < b.time; });
+  return starts[1];
+}
+
+std::string reportOfStarts(const std::string& file) {
+  const TemporaryFolder folder;
+  const RouterSource source{file, {}, {}, {}};
+  const RouterCache cache(folder.path(), source);
+  if (!cache.isWorthwhile()) return "";
+  const Start first = medianStart(
+      [&] { return std::make_shared<const Router>(readMap(file, source.origin, source.map), source.router); }, &cache);
+  const Start second = medianStart([&] { return cache.read().router; }, nullptr);
+  std::ostringstream out;
+  out << ", \"first_start_ms\": " << first.time * 1e3 << ", \"second_start_ms\": " << second.time * 1e3
+      << ", \"first_start_mb\": " << first.resident / 1e6 << ", \"second_start_mb\": " << second.resident / 1e6
+      << ", \"first_start_peak_mb\": " << first.highest / 1e6 << ", \"second_start_peak_mb\": " << second.highest / 1e6
+      << ", \"cache_mb\": " << static_cast<double>(std::filesystem::file_size(cache.path())) / 1e6;
+  return out.str();
+}
+
 std::string report(const std::string& file) {
+  const std::string starts = reportOfStarts(file);
   const double before = residentBytes();
   auto map = readMap(file, {});
   const double growth = residentBytes() - before;
@@ -86,7 +159,7 @@ std::string report(const std::string& file) {
   out << "  {\"file\": \"" << file << "\", \"lanes\": " << lanes << ", \"load_ms\": " << load * 1e3;
   if (parse > 0.0) out << ", \"protobuf_parse_ms\": " << parse * 1e3 << ", \"ratio\": " << load / parse;
   out << ", \"file_mb\": " << static_cast<double>(std::filesystem::file_size(file)) / 1e6;
-  out << ", \"memory_growth_mb\": " << growth / 1e6 << ", \"nearest_lane_us\": " << query * 1e6 << "}";
+  out << ", \"memory_growth_mb\": " << growth / 1e6 << ", \"nearest_lane_us\": " << query * 1e6 << starts << "}";
   return out.str();
 }
 

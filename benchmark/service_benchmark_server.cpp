@@ -24,6 +24,7 @@ std::vector<std::string> furtherVehicles() {
 int main(int argc, char** argv) {
   ros::init(argc, argv, "external_command");
   const std::vector<std::string> vehicles = furtherVehicles();
+  ros::param::set("~map_cache_folder", "none");  // nothing else is written meanwhile
   XmlRpc::XmlRpcValue parameters;
   ros::param::get(ros::this_node::getNamespace(), parameters);
   for (const std::string& vehicle : vehicles) ros::param::set(vehicle, parameters);

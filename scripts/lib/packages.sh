@@ -11,7 +11,8 @@ EC_DEBIAN_BUILD_PACKAGES=(
   libstd-msgs-dev libvisualization-msgs-dev
   ros-actionlib-msgs ros-diagnostic-msgs ros-geometry-msgs ros-move-base-msgs ros-nav-msgs ros-std-msgs
   ros-visualization-msgs
-  libboost-dev libeigen3-dev libmetis-dev libompl-dev libprotobuf-dev libtinyxml2-dev
+  libboost-dev libboost-serialization-dev libeigen3-dev libmetis-dev libompl-dev libprotobuf-dev libtinyxml2-dev
+  libxxhash-dev
 )
 # Beside the libraries; the package of scripts/package depends on these.
 EC_DEBIAN_RUN_PACKAGES=(
@@ -31,8 +32,8 @@ EC_DEBIAN_TEST_PACKAGES=(
 
 # Names of Ubuntu 20.04 with Noetic from packages.ros.org.
 EC_NOETIC_BUILD_PACKAGES=(
-  g++ make cmake protobuf-compiler python3-setuptools libboost-dev libeigen3-dev libmetis-dev
-  libprotobuf-dev libtinyxml2-dev
+  g++ make cmake protobuf-compiler python3-setuptools libboost-dev libboost-serialization-dev libeigen3-dev
+  libmetis-dev libprotobuf-dev libtinyxml2-dev libxxhash-dev
   ros-noetic-actionlib ros-noetic-actionlib-msgs ros-noetic-catkin ros-noetic-diagnostic-msgs
   ros-noetic-diagnostic-updater ros-noetic-geometry-msgs ros-noetic-message-generation ros-noetic-move-base-msgs
   ros-noetic-nav-msgs ros-noetic-nodelet ros-noetic-ompl ros-noetic-pluginlib ros-noetic-roscpp ros-noetic-std-msgs ros-noetic-tf2

@@ -46,9 +46,8 @@ Polygon::Polygon(const std::vector<Point2d>& points, const std::string& name) {
   if (points_.size() < 3) {
     throw InvalidRequest(text(name, " has ", points_.size(), " distinct vertices; at least 3 are needed"));
   }
-  const double area = signedArea(points_);
-  if (area < 0.0) std::reverse(points_.begin(), points_.end());
-  area_ = std::abs(area);
+  if (signedArea(points_) < 0.0) std::reverse(points_.begin(), points_.end());
+  area_ = std::abs(signedArea(points_));  // so that a polygon of the same points has the same, to the last digit
   requireSimple(points_, name);
   if (area_ < kMinPolygonArea) throw InvalidRequest(text(name, " has no area: ", area_, " m^2 inside its vertices"));
   box_ = boxOf(points_);

@@ -24,6 +24,18 @@ class LaneTree {
   LaneTree() = default;
   explicit LaneTree(const std::vector<Lane>& lanes);
 
+  /// Calls `visit(array)` for each array of which the tree consists, by which it can be kept.
+  template <class Visit>
+  void forEachArray(const Visit& visit) const {
+    visit(pieces_);
+    visit(boxes_);
+  }
+  template <class Visit>
+  void forEachArray(const Visit& visit) {
+    visit(pieces_);
+    visit(boxes_);
+  }
+
   /// Calls `visit(piece, bound)` for every piece whose box is not farther from `point` than `bound` [m^2, squared
   /// distance], the nearer halves of the tree first. `visit` returns the bound to go on with.
   template <class Visit>

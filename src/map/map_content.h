@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -19,7 +20,8 @@ struct MapContent {
   MapContent(MapContent&&) = default;
   MapContent& operator=(MapContent&&) = delete;
 
-  MapFaults faults;  ///< while it is resolved; `warnings` and `findings` hold what came of it
+  MapFaults faults;               ///< while it is resolved; `warnings` and `findings` hold what came of it
+  std::uint64_t file_digest = 0;  ///< contentDigest() of the file; 0 where it was made of something else
   std::string version;
   std::string projection;
   Point2d origin = Point2d::Zero();

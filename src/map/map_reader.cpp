@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/digest.h"
 #include "external_command/core/error.h"
 #include "external_command/core/in_parallel.h"
 #include "external_command/core/text.h"
@@ -86,7 +87,9 @@ MapData parse(const std::string& file) {
   const std::string bytes = fileBytes(file);
   ProtoConverter converter;
   looksBinary(bytes) ? parseBinary(file, bytes, &converter) : parseText(file, bytes, &converter);
-  return converter.take();
+  MapData data = converter.take();
+  data.file_digest = contentDigest(bytes);
+  return data;
 }
 
 /// Middle of the box around the centre lines, to the metre.

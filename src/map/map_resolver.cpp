@@ -50,6 +50,7 @@ BoundingBox boxOf(const MapContent& map) {
 MapContent resolve(MapData data, const Point2d& origin, const MapParams& params) {
   if (!origin.allFinite()) throw MapError("the map origin is not finite; give two coordinates in metres");
   MapContent map(params.keep_findings);
+  map.file_digest = data.file_digest;
   map.version = std::move(data.version);
   map.projection = std::move(data.projection);
   map.origin = origin;

@@ -11,6 +11,7 @@
 #include "external_command/ros/frame_id.h"
 #include "external_command/ros/map_store.h"
 #include "external_command/ros/parameter_check.h"
+#include "external_command/ros/ros_folder.h"
 #include "external_command/ros/status.h"
 #include "external_command/routing/reference_paths.h"
 
@@ -25,7 +26,7 @@ constexpr double kMemoryPeriod = 3.0;        // without a request, after which m
 
 std::shared_ptr<const Router> routerOf(const ContextParams& params) {
   if (params.map_file.empty()) return nullptr;
-  return sharedRouter(params.map_file, params.map_origin, params.map, params.router);
+  return sharedRouter({params.map_file, params.map_origin, params.map, params.router}, params.map_cache_folder);
 }
 
 /// The context outlives the nodelet that made it, and that nodelet's callback queue.
@@ -56,6 +57,13 @@ MotionWatchParams readMotionWatchParams(const ParameterReader& reader) {
   return params;
 }
 
+/// @return  empty for none.
+std::string readMapCacheFolder(const ParameterReader& reader) {
+  std::string folder;
+  reader.read("map_cache_folder", &folder);
+  return folder == "none" ? "" : rosFolder(folder, "external_command/maps");
+}
+
 /// Where the vehicle is, where that is known.
 std::optional<Point2d> placeOf(const VehiclePose& vehicle) {
   try {
@@ -78,6 +86,7 @@ ContextParams readContextParams(const ParameterReader& reader) {
   ContextParams params;
   reader.readPath("map_file", &params.map_file);
   params.map_origin = readMapOrigin(reader);
+  params.map_cache_folder = readMapCacheFolder(reader);
   params.map = readMapParams(reader.within("map"));
   reader.read("map_frame", &params.map_frame);
   reader.read("base_frame", &params.base_frame);

@@ -24,6 +24,21 @@ class ContractionHierarchy {
 
   explicit ContractionHierarchy(const RelaxedGraph& graph);
 
+  /// Empty, for what was kept.
+  ContractionHierarchy() = default;
+
+  /// Calls `visit(array)` for each array of which the hierarchy consists, by which it can be kept.
+  template <class Visit>
+  void forEachArray(const Visit& visit) const {
+    for (const auto* array : {&rank_, &parent_, &first_up_, &first_down_}) visit(*array);
+    for (const auto* array : {&up_, &down_}) visit(*array);
+  }
+  template <class Visit>
+  void forEachArray(const Visit& visit) {
+    for (auto* array : {&rank_, &parent_, &first_up_, &first_down_}) visit(*array);
+    for (auto* array : {&up_, &down_}) visit(*array);
+  }
+
   std::size_t size() const { return rank_.size(); }
   std::uint32_t rank(LaneIndex lane) const { return rank_[lane]; }
   std::uint32_t parent(std::uint32_t rank) const { return parent_[rank]; }

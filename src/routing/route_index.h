@@ -14,6 +14,21 @@ struct RouteIndex {
   RouteIndex(const LaneGraph& graph, const RouterParams& params)
       : RouteIndex(RelaxedGraph(graph, params.lane_change_price)) {}
 
+  /// Empty, for what was kept.
+  RouteIndex() = default;
+
+  /// Calls `visit(array)` for each array of which the index consists, by which it can be kept.
+  template <class Visit>
+  void forEachArray(const Visit& visit) const {
+    hierarchy.forEachArray(visit);
+    visit(rates);
+  }
+  template <class Visit>
+  void forEachArray(const Visit& visit) {
+    hierarchy.forEachArray(visit);
+    visit(rates);
+  }
+
   ContractionHierarchy hierarchy;
   std::vector<double> rates;  ///< as in RelaxedGraph
 

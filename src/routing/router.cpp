@@ -7,10 +7,10 @@
 #include "blocked_lanes.h"
 #include "external_command/core/parameter_range.h"
 #include "external_command/core/text.h"
-#include "lane_graph.h"
 #include "no_route.h"
 #include "route_builder.h"
 #include "route_search.h"
+#include "router_content.h"
 
 namespace external_command {
 
@@ -90,38 +90,32 @@ void RouterParams::validate() const {
   requireParameter("min_turning_radius", min_turning_radius, 0.1, 100.0);
 }
 
-struct Router::Impl {
-  Impl(std::shared_ptr<const HdMap> hd_map, const RouterParams& router_params)
-      : map(std::move(hd_map)), params(router_params), graph(*map, params), index(graph, params) {}
-
-  std::shared_ptr<const HdMap> map;
-  RouterParams params;
-  LaneGraph graph;
-  RouteIndex index;
-};
-
 Router::Router(std::shared_ptr<const HdMap> map, const RouterParams& params) {
   params.validate();
   if (!map) throw NotReady("no map is loaded");
-  impl_ = std::make_unique<const Impl>(std::move(map), params);
+  content_ = std::make_unique<const RouterContent>(std::move(map), params);
+}
+
+Router::Router(std::unique_ptr<const RouterContent> content) : content_(std::move(content)) {
+  content_->params.validate();
 }
 
 Router::~Router() = default;
 
-const HdMap& Router::map() const { return *impl_->map; }
-const std::shared_ptr<const HdMap>& Router::mapPtr() const { return impl_->map; }
-const RouterParams& Router::params() const { return impl_->params; }
+const HdMap& Router::map() const { return *content_->map; }
+const std::shared_ptr<const HdMap>& Router::mapPtr() const { return content_->map; }
+const RouterParams& Router::params() const { return content_->params; }
 
 Route Router::findRoute(const RouteQuery& request, const CancelToken& cancel) const {
-  const LaneGraph& graph = impl_->graph;
+  const LaneGraph& graph = content_->graph;
   const RouteQuery query = checked(request, graph, map());
   const BlockedLanes blocked(query.black_list);
   const SearchResult found =
-      searchRoute(graph, &impl_->index, impl_->params, ChangeRule::kWithRoom, query, blocked, cancel);
-  if (found.labels.empty()) throw NoRoute(whyNoRoute(map(), graph, impl_->params, query, cancel));
+      searchRoute(graph, &content_->index, content_->params, ChangeRule::kWithRoom, query, blocked, cancel);
+  if (found.labels.empty()) throw NoRoute(whyNoRoute(map(), graph, content_->params, query, cancel));
   Route route = buildRoute(graph, blocked, found.labels);
-  warnOfTightChanges(map(), impl_->params.min_lane_change_length, &route);
-  warnOfGoalBehind(map(), query.goals[route.goal], impl_->params.stopping_error, &route);
+  warnOfTightChanges(map(), content_->params.min_lane_change_length, &route);
+  warnOfGoalBehind(map(), query.goals[route.goal], content_->params.stopping_error, &route);
   return route;
 }
 

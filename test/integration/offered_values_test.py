@@ -29,6 +29,7 @@ MANOEUVRES = ("lane_follow", "valet_parking", "free_space", "precise_parking", "
 OFFERED = {
     "external_command/map_origin": ["none", "auto", [60.0, 60.0]],
     "external_command/map_file": [MAP],
+    "external_command/map_cache_folder": ["", "none"],
     "external_command/arrival": ["reported", "pose", "both"],
     "external_command/planning_threads": [0, 2],
     "external_command/limits/geofence": [[], [[-500, -500], [1500, -500], [1500, 1500], [-500, 1500]]],

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "external_command/core/frenet.h"
@@ -14,6 +15,9 @@ class Polyline {
   /// Points nearer than 1 mm to their predecessor are dropped.
   /// @throws std::invalid_argument  a point is not plausible (pose.h), or fewer than two distinct points are left.
   explicit Polyline(std::vector<Point2d> points);
+
+  /// One without points, to which another one is to be assigned before anything else is done with it.
+  static Polyline blank() { return Polyline({}, {}); }
 
   const std::vector<Point2d>& points() const { return points_; }
 
@@ -38,6 +42,8 @@ class Polyline {
   Polyline slice(double from, double to) const;
 
  private:
+  Polyline(std::vector<Point2d> points, std::vector<double> s) : points_(std::move(points)), s_(std::move(s)) {}
+
   std::size_t segmentAt(double s) const;
 
   std::vector<Point2d> points_;

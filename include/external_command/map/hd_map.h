@@ -26,13 +26,13 @@ struct HeightSample {
 /// A lane with every reference resolved.
 struct Lane {
   std::string id;
-  Polyline center;
+  Polyline center = Polyline::blank();
   LaneBoundary left, right;
   std::vector<WidthSample> left_widths, right_widths;
-  double speed_limit;  ///< [m/s], 0 where the map gives none
-  LaneType type;
-  LaneTurn turn;
-  LaneDirection direction;
+  double speed_limit = 0.0;  ///< [m/s], 0 where the map gives none
+  LaneType type = LaneType::kNone;
+  LaneTurn turn = LaneTurn::kNoTurn;
+  LaneDirection direction = LaneDirection::kForward;
   std::vector<LaneIndex> predecessors, successors;     ///< where routes lead; the file's, but for the gaps
   std::vector<LaneIndex> left_forward, right_forward;  ///< neighbours in the same direction, drivable or not
   std::vector<LaneIndex> left_reverse, right_reverse;  ///< neighbours in the opposite direction
@@ -117,6 +117,8 @@ struct LaneMatch {
   double heading = 0.0;  ///< of the lane at the foot point [rad]
 };
 
+struct MapContent;  // as src/map has it
+
 /// An HD map: immutable once built, every query const and thread-safe, no caches.
 ///
 /// Maps of the wild leave fields empty or wrong. Each of the following is counted in `warnings()` unless marked (*).
@@ -154,6 +156,8 @@ class HdMap {
   /// @param origin  is subtracted from every coordinate [m].
   /// @throws MapError  no usable lane is left.
   HdMap(MapData data, const Point2d& origin, const MapParams& params = {});
+  /// One that was resolved before.
+  explicit HdMap(MapContent content);
   ~HdMap();
   HdMap(const HdMap&) = delete;
   HdMap& operator=(const HdMap&) = delete;
@@ -192,9 +196,11 @@ class HdMap {
   /// The first area (in file order) that contains `point`; nullptr where none does.
   const Area* areaAt(const Point2d& point) const;
 
+  /// For what keeps maps.
+  const MapContent& content() const { return *content_; }
+
  private:
-  struct Content;
-  std::unique_ptr<const Content> content_;
+  std::unique_ptr<const MapContent> content_;
 };
 
 }  // namespace external_command

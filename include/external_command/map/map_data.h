@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -98,6 +99,7 @@ struct AreaData {
 
 /// A map as a file states it, before anything is resolved or checked. What every reader produces, and tests build.
 struct MapData {
+  std::uint64_t file_digest = 0;  ///< of all bytes of the file; 0 where it was made of something else
   std::string version;
   std::string projection;  ///< PROJ string, empty where not given
   std::vector<LaneData> lanes;

@@ -37,6 +37,7 @@ class ReferencePaths;
 struct ContextParams {
   std::string map_file;  ///< empty: no map
   MapOrigin map_origin;
+  std::string map_cache_folder;  ///< of files from which large maps are loaded sooner; empty: none
   MapParams map;
   std::string map_frame = "map";
   std::string base_frame = "base_link";

@@ -78,10 +78,15 @@ struct RouterParams {
   void validate() const;
 };
 
+struct RouterContent;  // as src/routing has it
+
 /// Shortest routes over the lanes of one map. Immutable, thread-safe, no caches.
 class Router {
  public:
   Router(std::shared_ptr<const HdMap> map, const RouterParams& params);
+
+  /// One that was made before.
+  explicit Router(std::unique_ptr<const RouterContent> content);
   ~Router();
 
   const HdMap& map() const;
@@ -96,9 +101,11 @@ class Router {
   /// @throws Cancelled  `cancel` was raised; polled at least every 1 ms.
   Route findRoute(const RouteQuery& query, const CancelToken& cancel) const;
 
+  /// For what keeps routers.
+  const RouterContent& content() const { return *content_; }
+
  private:
-  struct Impl;
-  std::unique_ptr<const Impl> impl_;
+  std::unique_ptr<const RouterContent> content_;
 };
 
 /// Passages of the route as the RoutingResponse states them: the passages of a segment lie side by side.
