@@ -35,8 +35,10 @@ def _rows(measurement):
     if program == "map_benchmark":
         return (_row(measurement, "load", "ms", ("load_ms", None), "protobuf's parsing", ("protobuf_parse_ms", None))
                 + _row(measurement, "memory of the map", "MB", ("memory_growth_mb", None), "the file", ("file_mb", None))
-                + _row(measurement, "second start", "ms", ("second_start_ms", None), "the first", ("first_start_ms", None))
-                + _row(measurement, "memory after it", "MB", ("second_start_mb", None), "the first", ("first_start_mb", None))
+                + _row(measurement, "second start", "ms", ("second_start_ms", None), "the first",
+                       ("first_start_ms", None))
+                + _row(measurement, "memory after it", "MB", ("second_start_mb", None), "the first",
+                       ("first_start_mb", None))
                 + _row(measurement, "at most meanwhile", "MB", ("second_start_peak_mb", None), "the first",
                        ("first_start_peak_mb", None)))
     if program == "routing_benchmark":
