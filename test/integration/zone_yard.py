@@ -37,13 +37,20 @@ def percent_of(message):
 
 
 def wait_until_kept(folder):
-    """Until nothing is left to write: progress goes to its file within a second, or later where the disk is slow."""
+    """Until nothing is left to write: progress goes to its file within a second, or later where the disk is slow, which
+    shows in how long a new file stands beside the one that it is to replace."""
+    seen, since, slowest = None, time.monotonic(), 0.0
+
     def is_kept():
-        files = os.listdir(folder)
-        if not files or any(name.endswith(".new") for name in files):
-            return False
-        newest = max(os.stat(os.path.join(folder, name)).st_mtime for name in files)
-        return time.time() - newest > 1.5
+        nonlocal seen, since, slowest
+        now = time.monotonic()
+        files = {entry.name: entry.inode() for entry in os.scandir(folder)}
+        if files != seen:
+            seen, since = files, now
+        is_being_written = any(name.endswith(".new") for name in files)
+        if is_being_written:
+            slowest = max(slowest, now - since)
+        return files and not is_being_written and now - since > 1.5 + 2.0 * slowest
     support.wait_until(is_kept, "the progress is kept", 60.0)
 
 

@@ -17,6 +17,7 @@ constexpr std::chrono::seconds kPatience(1);                 // with the disk, b
 constexpr std::chrono::milliseconds kReadPatience(500);      // the same, before a file is read
 constexpr std::chrono::seconds kPeriod(1), kRetryPeriod(2);  // of writing
 constexpr std::chrono::seconds kFarewell(5);                 // for the last writes
+constexpr std::chrono::seconds kQuiet(1);                    // without news: the next write is the last for now
 constexpr int kShareOfDisk = 20;                             // a write may take that part of the time
 constexpr std::size_t kMostKept = 4;                         // zones that are swept no more and cannot be written
 constexpr const char* kSlowDisk = "the disk has not answered yet";
@@ -49,6 +50,7 @@ struct ZoneKeeper::Kept {
   bool is_busy = false;    ///< it is being written
   bool is_urgent = false;  ///< it is to be written before it is due
   bool is_over = false;
+  Clock::time_point noted = Clock::now();       ///< the last time that there was news
   Clock::time_point due = Clock::now();         ///< the next time that it is written
   Clock::time_point urgent_due = Clock::now();  ///< the same where it is urgent
 };
@@ -129,6 +131,7 @@ void ZoneKeeper::note(const std::string& path, const CoverageProgress& progress,
   Kept& kept = *found->second;
   kept.progress.swept = progress.swept;
   kept.progress.skipped = progress.skipped;
+  kept.noted = Clock::now();
   kept.is_dirty = true;
   kept.is_urgent = kept.is_urgent || at_once;
 }
@@ -147,8 +150,10 @@ void ZoneKeeper::finish(const std::string& path) {
 
 void ZoneKeeper::tick() {
   const std::lock_guard<std::mutex> lock(mutex_);
+  const Clock::time_point now = Clock::now();
   for (const auto& [path, kept] : kept_) {
-    const bool is_due = Clock::now() >= (kept->is_urgent ? kept->urgent_due : kept->due);
+    const bool is_quiet = kept->failure.empty() && now >= kept->noted + kQuiet;
+    const bool is_due = is_quiet || now >= (kept->is_urgent ? kept->urgent_due : kept->due);
     if (kept->is_dirty && !kept->is_busy && is_due) post(kept);
   }
 }

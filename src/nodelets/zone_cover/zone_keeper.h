@@ -16,7 +16,8 @@
 namespace external_command {
 
 /// Writes zones' files on a thread of its own, so that a slow disk delays nobody: once a second each and when that is
-/// asked for, less often where a write takes long. What cannot be written is kept in memory and tried again.
+/// asked for, less often where a write takes long, but always a second after the vehicle came to a stop. What cannot be
+/// written is kept in memory and tried again.
 /// Thread-safe.
 class ZoneKeeper {
  public:

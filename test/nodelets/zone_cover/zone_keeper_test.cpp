@@ -6,14 +6,28 @@
 #include <sys/mount.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <thread>
 
 #include "support/zone_plans.h"
+
+namespace {
+
+std::atomic<int> sync_takes{0};  // [ms]
+
+}  // namespace
+
+/// Stands before that of the C library: a disk that takes its time.
+extern "C" int fsync(int fd) {
+  std::this_thread::sleep_for(std::chrono::milliseconds(sync_takes));
+  return static_cast<int>(syscall(SYS_fsync, fd));
+}
 
 namespace external_command {
 namespace {
@@ -23,7 +37,10 @@ namespace fs = std::filesystem;
 class ZoneKeeperTest : public testing::Test {
  protected:
   ZoneKeeperTest() { fs::create_directories(folder_); }
-  ~ZoneKeeperTest() override { fs::remove_all(folder_); }
+  ~ZoneKeeperTest() override {
+    sync_takes = 0;
+    fs::remove_all(folder_);
+  }
 
   ZonePlanFile file(const std::string& label = "yard") const {
     const CoverageArea area{Polygon({{0, 0}, {40, 0}, {40, 30}, {0, 30}}, "yard"), {}};
@@ -127,6 +144,43 @@ TEST_F(ZoneKeeperTest, DoesNotWaitForItsTimeWhereALineIsDone) {
       return file().read() && file().read()->sweptOf(0) == i;
     }));
   }
+}
+
+TEST_F(ZoneKeeperTest, DoesNotKeepASlowDiskBusyWhileThereIsNews) {
+  ZoneKeeper keeper;
+  CoverageProgress progress = lapAndSwaths();
+  keeper.adopt(*keeper.draft(file(), progress));
+  EXPECT_FALSE(keeper.unwritten(file().path()));
+  sync_takes = 100;
+  std::size_t writing = 0, looks = 0;
+  for (int i = 1; i <= 300; ++i, ++looks) {
+    progress.sweep(0, 0.1 * i);
+    keeper.note(file().path(), progress, true);
+    keeper.tick();
+    writing += filesInFolder() > 1;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  EXPECT_LT(writing, looks / 2);
+}
+
+TEST_F(ZoneKeeperTest, WritesWhatIsLeftASecondAfterTheLastNewsHoweverSlowTheDisk) {
+  ZoneKeeper keeper;
+  CoverageProgress progress = lapAndSwaths();
+  keeper.adopt(*keeper.draft(file(), progress));
+  EXPECT_FALSE(keeper.unwritten(file().path()));
+  sync_takes = 400;
+  progress.sweep(0, 5.0);
+  keeper.note(file().path(), progress, true);
+  keeper.tick();
+  progress.sweep(0, 6.0);
+  keeper.note(file().path(), progress, true);
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_TRUE(comesTrue([&] {
+    keeper.tick();
+    return file().read()->sweptOf(0) == 6.0;
+  }));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(8))
+      << "a twentieth of the time would be 16 s for the write before";
 }
 
 /// Opening a pipe to write waits for someone who reads: a disk that does not answer.
