@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Round trip of a lane-follow call from a persistent client beside that of an empty service in the same manager.
-// service_benchmark X0 Y0 X1 Y1 [CALLS [VEHICLE...]]: from (X0, Y0) to (X1, Y1) [m]; prints one JSON object.
-// VEHICLE is the namespace of a component in that manager; with several, each is called in its turn.
+// service_benchmark X0 Y0 X1 Y1 [CALLS [VEHICLE...]]: from (X0, Y0), where the vehicle stands, to (X1, Y1) [m]; prints
+// one JSON object. VEHICLE is the namespace of a component in that manager; with several, each is called in its turn.
 #include <ros/ros.h>
 #include <roscpp/Empty.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
 #include <chrono>
@@ -66,6 +67,19 @@ LaneFollow requestOf(char** argv) {
   return service;
 }
 
+/// Of a vehicle that stands at the start.
+tf2_msgs::TFMessage poseOf(const LaneFollow& service) {
+  tf2_msgs::TFMessage message;
+  message.transforms.resize(1);
+  geometry_msgs::TransformStamped& pose = message.transforms.front();
+  pose.header.frame_id = "map";
+  pose.child_frame_id = "base_link";
+  pose.transform.translation.x = service.request.command.way_point[0].x;
+  pose.transform.translation.y = service.request.command.way_point[0].y;
+  pose.transform.rotation.w = 1.0;
+  return message;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -86,6 +100,8 @@ int main(int argc, char** argv) {
   }
 
   LaneFollow command = requestOf(argv);
+  const ros::Publisher transforms = nh.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
+  transforms.publish(poseOf(command));
   roscpp::Empty nothing;
   std::vector<double> empty_times, command_times;
   const int warm_up = std::max(50, 2 * static_cast<int>(command_clients.size()));

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "nodelets/process/freed_memory.h"
+
 namespace {
 
 std::vector<std::string> furtherVehicles() {
@@ -22,6 +24,7 @@ std::vector<std::string> furtherVehicles() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  external_command::giveBackFreedMemory();  // as the process of a vehicle does
   ros::init(argc, argv, "external_command");
   const std::vector<std::string> vehicles = furtherVehicles();
   ros::param::set("~map_cache_folder", "none");  // nothing else is written meanwhile
