@@ -3,11 +3,14 @@
 
 #include <algorithm>
 
+#include "external_command/core/in_parallel.h"
+
 namespace external_command {
 
 namespace {
 
-constexpr std::size_t kPieceSize = 8;  // [segments]
+constexpr std::size_t kPieceSize = 8;      // [segments]
+constexpr std::size_t kLeastPart = 50000;  // of the pieces, that a thread of its own is worth
 
 BoundingBox boxOf(const std::vector<Point2d>& points, std::size_t first, std::size_t last) {
   BoundingBox box{points[first], points[first]};
@@ -36,10 +39,10 @@ LaneTree::LaneTree(const std::vector<Lane>& lanes) {
   std::size_t first = 0;  // of the boxes of one depth
   for (std::size_t most = pieces_.size(); most > kLeafSize; most -= most / 2) first = 2 * first + 1;
   boxes_.resize(2 * first + 1);
-  build({0, 0, pieces_.size()});
+  build({0, 0, pieces_.size()}, parallelParts(pieces_.size() / kLeastPart));
 }
 
-void LaneTree::build(const Node& node) {
+void LaneTree::build(const Node& node, std::size_t threads) {
   BoundingBox box = pieces_[node.begin].box;
   for (std::size_t i = node.begin + 1; i < node.end; ++i) {
     box.min = box.min.cwiseMin(pieces_[i].box.min);
@@ -54,8 +57,12 @@ void LaneTree::build(const Node& node) {
                    [axis](const LanePiece& a, const LanePiece& b) {
                      return a.box.min[axis] + a.box.max[axis] < b.box.min[axis] + b.box.max[axis];
                    });
-  build(node.left());
-  build(node.right());
+  const Node children[] = {node.left(), node.right()};
+  if (threads > 1) {
+    inParallel(2, [&](std::size_t i) { build(children[i], i == 0 ? threads / 2 : threads - threads / 2); });
+  } else {
+    for (const Node& child : children) build(child, 1);
+  }
 }
 
 }  // namespace external_command

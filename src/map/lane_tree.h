@@ -56,7 +56,7 @@ class LaneTree {
     Node right() const { return {2 * index + 2, middle(), end}; }
   };
 
-  void build(const Node& node);
+  void build(const Node& node, std::size_t threads);
 
   static double squaredDistance(const BoundingBox& box, const Point2d& point) {
     return (box.min - point).cwiseMax(point - box.max).cwiseMax(0.0).squaredNorm();

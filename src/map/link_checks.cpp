@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
+#include "lane_blocks.h"
 #include "lane_checks.h"
 
 namespace external_command {
@@ -42,24 +45,45 @@ Joint jointOf(const Polyline& from, const Polyline& onto) {
   return overlaps ? Joint{foot.distance, foot.s, turn} : joint;
 }
 
+void checkFolds(const Lane& lane, MapFaults* faults) {
+  const std::vector<Point2d>& line = lane.center.points();
+  for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+    const Point2d in = line[i] - line[i - 1], out = line[i + 1] - line[i];
+    if (in.dot(out) > 0.0) continue;  // nearly all; a right angle is not enough
+    const double back = std::min(in.norm(), out.norm());
+    if (back < kOddFold || std::abs(angleBetween(headingOf(in), headingOf(out))) < kFoldTurn) continue;
+    faults->add(MapFault::kFold, {lane.id}, {line[i], back}, lane.id, " at ", at(line[i]), ", by ", metres(back));
+  }
+}
+
 class LinkCheck {
  public:
-  LinkCheck(double max_gap, MapContent* map) : max_gap_(max_gap), map_(*map) {}
+  LinkCheck(double max_gap, MapContent* map) : max_gap_(max_gap), map_(*map), joints_(map->lanes.size()) {}
 
   void run() {
-    for (std::size_t i = 0; i < map_.lanes.size(); ++i) {
-      checkLinksOf(static_cast<LaneIndex>(i));
-      if (!map_.lanes[i].is_reversed) checkFolds(map_.lanes[i]);
-    }
+    inBlocks(map_.lanes.size(), &map_.faults, [this](std::size_t begin, std::size_t end, MapFaults* faults) {
+      for (std::size_t i = begin; i < end; ++i) measure(i, faults);
+    });
+    for (std::size_t i = 0; i < map_.lanes.size(); ++i) checkLinksOf(static_cast<LaneIndex>(i));
   }
 
  private:
+  void measure(std::size_t index, MapFaults* faults) {
+    const Lane& lane = map_.lanes[index];
+    joints_[index].reserve(lane.successors.size());
+    for (const LaneIndex next : lane.successors) {
+      joints_[index].push_back(jointOf(lane.center, map_.lanes[next].center));
+    }
+    if (!lane.is_reversed) checkFolds(lane, faults);
+  }
+
   void checkLinksOf(LaneIndex index) {
     Lane& lane = map_.lanes[index];
     std::vector<LaneIndex> kept;
-    for (const LaneIndex next : lane.successors) {
+    for (std::size_t i = 0; i < lane.successors.size(); ++i) {
+      const LaneIndex next = lane.successors[i];
       const Lane& onto = map_.lanes[next];
-      const Joint joint = jointOf(lane.center, onto.center);
+      const Joint& joint = joints_[index][i];
       const bool is_driven = lane.isDrivable() && onto.isDrivable();
       if (is_driven && joint.gap > max_gap_) {
         drop(index, next, joint.gap);
@@ -102,19 +126,9 @@ class LinkCheck {
     }
   }
 
-  void checkFolds(const Lane& lane) {
-    const std::vector<Point2d>& line = lane.center.points();
-    for (std::size_t i = 1; i + 1 < line.size(); ++i) {
-      const Point2d in = line[i] - line[i - 1], out = line[i + 1] - line[i];
-      if (in.dot(out) > 0.0) continue;  // nearly all; a right angle is not enough
-      const double back = std::min(in.norm(), out.norm());
-      if (back < kOddFold || std::abs(angleBetween(headingOf(in), headingOf(out))) < kFoldTurn) continue;
-      map_.faults.add(MapFault::kFold, {lane.id}, {line[i], back}, lane.id, " at ", at(line[i]), ", by ", metres(back));
-    }
-  }
-
   const double max_gap_;
   MapContent& map_;
+  std::vector<std::vector<Joint>> joints_;  ///< of each lane with its successors
 };
 
 }  // namespace

@@ -1,7 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "map_faults.h"
 
+#include <iterator>
+#include <utility>
+
 namespace external_command {
+
+void MapFaults::append(MapFaults later) {
+  for (std::size_t i = 0; i < counts_.size(); ++i) {
+    Count &count = counts_[i], &other = later.counts_[i];
+    if (count.count == 0 || other.worst > count.worst) {
+      count.worst = other.worst;
+      count.example = std::move(other.example);
+    }
+    count.count += other.count;
+  }
+  findings_.insert(findings_.end(), std::make_move_iterator(later.findings_.begin()),
+                   std::make_move_iterator(later.findings_.end()));
+}
 
 std::vector<MapWarning> MapFaults::warnings() const {
   std::vector<MapWarning> warnings;

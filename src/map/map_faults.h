@@ -36,6 +36,11 @@ class MapFaults {
     addOne(fault, ids, place, example...);
   }
 
+  bool keepsAll() const { return keeps_all_; }
+
+  /// Those of `later`, which were found in what comes behind, behind these.
+  void append(MapFaults later);
+
   /// One for each kind that there is, in the order of MapFault.
   std::vector<MapWarning> warnings() const;
 

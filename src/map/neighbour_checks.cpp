@@ -3,7 +3,9 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <vector>
 
+#include "lane_blocks.h"
 #include "lane_checks.h"
 #include "lane_search.h"
 
@@ -40,21 +42,17 @@ Beside besideOf(const Polyline& lane, const Polyline& other) {
   return beside;
 }
 
+/// Of one lane after the other: changes its neighbours, and looks at the centre lines of others only.
 class NeighbourCheck {
  public:
-  explicit NeighbourCheck(MapContent* map) : map_(*map) {}
+  NeighbourCheck(std::vector<Lane>* lanes, MapFaults* faults) : lanes_(*lanes), faults_(*faults) {}
 
-  void run() {
-    for (std::size_t i = 0; i < map_.lanes.size(); ++i) mend(static_cast<LaneIndex>(i));
-  }
-
- private:
   void mend(LaneIndex index) {
-    Lane& lane = map_.lanes[index];
+    Lane& lane = lanes_[index];
     std::vector<LaneIndex> left, right;
     for (const bool is_left : {true, false}) {
       for (const LaneIndex other : is_left ? lane.left_forward : lane.right_forward) {
-        const auto lies_left = sideOf(lane, map_.lanes[other], is_left);
+        const auto lies_left = sideOf(lane, lanes_[other], is_left);
         if (lies_left) addOnce(other, *lies_left ? &left : &right);
       }
     }
@@ -62,6 +60,7 @@ class NeighbourCheck {
     lane.right_forward = std::move(right);
   }
 
+ private:
   /// True: to the left. nullopt: it is no neighbour in the same direction.
   std::optional<bool> sideOf(const Lane& lane, const Lane& other, bool stated_left) {
     Beside beside = besideOf(lane.center, other.center);
@@ -71,18 +70,18 @@ class NeighbourCheck {
     }
     const Point2d middle = lane.center.pointAt(lane.length() / 2.0);
     if (beside.distance > kMaxDistance) {
-      map_.faults.add(MapFault::kNeighbourFar, {lane.id, other.id}, {middle, beside.distance}, other.id, " of ",
-                      lane.id, ", ", metres(beside.distance), " off");
+      faults_.add(MapFault::kNeighbourFar, {lane.id, other.id}, {middle, beside.distance}, other.id, " of ", lane.id,
+                  ", ", metres(beside.distance), " off");
       return std::nullopt;
     }
     if (beside.turn > M_PI / 2.0) {
-      map_.faults.add(MapFault::kNeighbourOncoming, {lane.id, other.id}, {middle}, other.id, " of ", lane.id);
+      faults_.add(MapFault::kNeighbourOncoming, {lane.id, other.id}, {middle}, other.id, " of ", lane.id);
       return std::nullopt;
     }
     const bool lies_left = std::abs(beside.l) < kClearlyBeside ? stated_left : beside.l > 0.0;
     if (lies_left != stated_left) {
-      map_.faults.add(MapFault::kNeighbourWrongSide, {lane.id, other.id}, {middle}, other.id, ", stated as the ",
-                      stated_left ? "left" : "right", " neighbour of ", lane.id);
+      faults_.add(MapFault::kNeighbourWrongSide, {lane.id, other.id}, {middle}, other.id, ", stated as the ",
+                  stated_left ? "left" : "right", " neighbour of ", lane.id);
     }
     return lies_left;
   }
@@ -91,7 +90,8 @@ class NeighbourCheck {
     if (std::find(lanes->begin(), lanes->end(), lane) == lanes->end()) lanes->push_back(lane);
   }
 
-  MapContent& map_;
+  std::vector<Lane>& lanes_;
+  MapFaults& faults_;
 };
 
 bool hasForwardNeighbour(const Lane& lane) {
@@ -112,7 +112,12 @@ bool hasLaneBeside(const MapContent& map, LaneIndex index, double s) {
 
 }  // namespace
 
-void mendNeighbours(MapContent* map) { NeighbourCheck(map).run(); }
+void mendNeighbours(MapContent* map) {
+  inBlocks(map->lanes.size(), &map->faults, [map](std::size_t begin, std::size_t end, MapFaults* faults) {
+    NeighbourCheck check(&map->lanes, faults);
+    for (std::size_t i = begin; i < end; ++i) check.mend(static_cast<LaneIndex>(i));
+  });
+}
 
 /// They are not derived: where a file names none for any lane, nothing says which lines may be crossed.
 void countMissingNeighbours(MapContent* map) {

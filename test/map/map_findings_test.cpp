@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <string>
 
 #include "external_command/map/map_reader.h"
 #include "map/map_files.h"
@@ -70,6 +72,41 @@ TEST(MapFindings, AreWhatTheWarningsCount) {
   std::set<MapFault> kinds;
   for (const MapFinding& finding : findingsOf(spoiltMap())) kinds.insert(finding.fault);
   EXPECT_GT(kinds.size(), 10u);
+}
+
+/// `count` of the same lanes, with ids of their own: "7/a".
+MapData lanesOften(const MapData& once, std::size_t count) {
+  MapData often;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (LaneData lane : once.lanes) {
+      const std::string prefix = std::to_string(i) + "/";
+      lane.id = prefix + lane.id;
+      for (auto* ids : {&lane.predecessors, &lane.successors, &lane.left_forward, &lane.right_forward}) {
+        for (std::string& id : *ids) id = prefix + id;
+      }
+      for (Point2d& point : lane.center) point.y() += 1000.0 * static_cast<double>(i);
+      often.lanes.push_back(std::move(lane));
+    }
+  }
+  return often;
+}
+
+TEST(MapFindings, AreThoseOfEachPartOfALargeMapInTheOrderOfTheFile) {
+  constexpr std::size_t kOften = 5000;  // so that several parts are looked at at once
+  MapData once = spoiltMap();
+  once.lanes.push_back(once.lanes.front());  // an id that is there already
+  const std::vector<MapFinding> few = findingsOf(lanesOften(once, 1)), many = findingsOf(lanesOften(once, kOften));
+  ASSERT_EQ(many.size(), kOften * few.size());
+  std::map<MapFault, std::size_t> last, counts;
+  for (const MapFinding& finding : few) counts[finding.fault] += kOften;
+  for (const MapFinding& finding : many) {
+    const std::size_t part = std::stoul(finding.ids.front());
+    EXPECT_GE(part, last[finding.fault]) << finding.what;
+    last[finding.fault] = part;
+    --counts[finding.fault];
+  }
+  for (const auto& [fault, rest] : counts) EXPECT_EQ(rest, 0u) << kindOf(fault).what;
+  EXPECT_TRUE(agree(lanesOften(once, kOften)));
 }
 
 TEST(MapFindings, AreWhatTheWarningsCountInRealMaps) {
