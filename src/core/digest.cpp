@@ -3,53 +3,40 @@
 
 #include <xxhash.h>
 
-#include <algorithm>
 #include <atomic>
 #include <cstdio>
-#include <vector>
 
 #include "external_command/core/in_parallel.h"
 #include "file_reading.h"
 
 namespace external_command {
 
-namespace {
-
-constexpr std::size_t kPartSize = 1 << 20;  // of contents; it decides what their digests are [bytes]
-
-/// Of a content that is looked at part by part: the digest of the digests of the parts.
-/// @param bytesOf  (begin, size, buffer) -> where the bytes of a part are; they may be put into the buffer.
-template <class BytesOf>
-std::uint64_t digestOfParts(std::size_t size, const BytesOf& bytesOf) {
-  std::vector<std::uint64_t> digests((size + kPartSize - 1) / kPartSize);
-  std::atomic<std::size_t> next{0};
-  inParallel(parallelParts(digests.size()), [&](std::size_t) {
-    std::string buffer;
-    for (std::size_t i = next++; i < digests.size(); i = next++) {
-      const std::size_t begin = i * kPartSize, count = std::min(kPartSize, size - begin);
-      digests[i] = digestOf(bytesOf(begin, count, &buffer), count);
-    }
-  });
-  digests.push_back(size);
-  return digestOf(digests.data(), digests.size() * sizeof(std::uint64_t));
-}
-
-}  // namespace
-
 std::uint64_t digestOf(const void* bytes, std::size_t size) { return XXH64(bytes, size, 0); }
 
+std::uint64_t ContentDigest::value() const {
+  std::vector<std::uint64_t> all = parts_;
+  all.push_back(size_);
+  return digestOf(all.data(), all.size() * sizeof(std::uint64_t));
+}
+
 std::uint64_t contentDigest(const std::string& bytes) {
-  return digestOfParts(bytes.size(),
-                       [&](std::size_t begin, std::size_t, std::string*) { return bytes.data() + begin; });
+  ContentDigest digest(bytes.size());
+  for (std::size_t i = 0; i < digest.parts(); ++i) digest.add(i, bytes.data() + i * ContentDigest::kPartSize);
+  return digest.value();
 }
 
 std::uint64_t contentDigestOfFile(const std::string& path) {
   const FileReading file(path);
-  return digestOfParts(file.size(), [&](std::size_t begin, std::size_t size, std::string* buffer) {
-    buffer->resize(size);
-    file.read(begin, size, &(*buffer)[0]);
-    return buffer->data();
+  ContentDigest digest(file.size());
+  std::atomic<std::size_t> next{0};
+  inParallel(parallelParts(digest.parts()), [&](std::size_t) {
+    std::string buffer(ContentDigest::kPartSize, '\0');
+    for (std::size_t i = next++; i < digest.parts(); i = next++) {
+      file.read(i * ContentDigest::kPartSize, digest.sizeOf(i), &buffer[0]);
+      digest.add(i, buffer.data());
+    }
   });
+  return digest.value();
 }
 
 std::string hexadecimal(std::uint64_t digest) {

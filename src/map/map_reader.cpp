@@ -2,14 +2,18 @@
 #include "external_command/map/map_reader.h"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 #include "core/digest.h"
 #include "external_command/core/error.h"
 #include "external_command/core/in_parallel.h"
 #include "external_command/core/text.h"
-#include "file_bytes.h"
+#include "field_stream.h"
+#include "map_file.h"
 #include "proto_conversion.h"
 #include "text_message_reader.h"
 #include "wire_fields.h"
@@ -18,78 +22,93 @@ namespace external_command {
 
 namespace {
 
-constexpr std::size_t kPartSize = 1 << 20;  // of files that are parsed in parts [bytes]
 constexpr const char* kWhatNext = "; give Apollo's base_map or sim_map, binary or protobuf text";
 
 /// A binary map cannot do without control characters (field tags and lengths), a text has none.
-bool looksBinary(const std::string& bytes) {
+bool looksBinary(const MapFile& file) {
   constexpr std::size_t kEnough = 4096;
-  const auto end = bytes.begin() + static_cast<std::ptrdiff_t>(std::min(bytes.size(), kEnough));
-  return std::any_of(bytes.begin(), end, [](unsigned char c) { return c < 0x20 && !(c >= '\t' && c <= '\r'); });
+  const std::string head = file.head(kEnough);
+  return std::any_of(head.begin(), head.end(), [](unsigned char c) { return c < 0x20 && !(c >= '\t' && c <= '\r'); });
 }
 
-void parseText(const std::string& file, const std::string& bytes, ProtoConverter* converter) {
+MapData parseText(const MapFile& file) {
+  const std::string bytes = file.head(file.size());
   const std::size_t start = bytes.find_first_not_of(" \t\r\n");
   if (start != std::string::npos && bytes[start] == '<') {
-    throw MapError(text(file, " is XML (OpenDRIVE or Lanelet2?), which is not read here", kWhatNext));
+    throw MapError(text(file.path(), " is XML (OpenDRIVE or Lanelet2?), which is not read here", kWhatNext));
   }
+  ProtoConverter converter;
   proto::Map part;
   try {
     readTextMessage(bytes, &part, [&] {
-      converter->add(part);
+      converter.add(part);
       part.Clear();
     });
   } catch (const TextMessageError& error) {
-    throw MapError(text(file, " is no map, or a damaged one: ", error.what(), kWhatNext));
+    throw MapError(text(file.path(), " is no map, or a damaged one: ", error.what(), kWhatNext));
   }
-}
-
-[[noreturn]] void failAt(const std::string& file, const std::string& bytes, std::size_t position) {
-  throw MapError(text(file, " is no map, or a damaged or truncated one: it makes no sense from byte ", position, " of ",
-                      bytes.size(), " on", kWhatNext));
-}
-
-/// Where the fields of a message may be cut into parts of about the same size: the beginnings of the parts, and the end
-/// of the last field.
-std::vector<std::size_t> cutBetweenFields(const std::string& bytes, std::size_t parts) {
-  std::vector<std::size_t> cuts = {0};
-  std::size_t position = 0;
-  while (position < bytes.size()) {
-    const std::size_t end = fieldEnd(bytes, position);
-    if (end == kNoField) break;
-    position = end;
-    if (position / cuts.size() >= bytes.size() / parts && cuts.size() < parts) cuts.push_back(position);
-  }
-  cuts.push_back(position);
-  return cuts;
-}
-
-/// A message cut between two of its fields is two messages, which merge into the one. So each lane is parsed into the
-/// memory of the one before: faster than all of them at once, and without a second copy of the map. And a large file is
-/// parsed in parts at the same time.
-void parseBinary(const std::string& file, const std::string& bytes, ProtoConverter* converter) {
-  const std::vector<std::size_t> cuts = cutBetweenFields(bytes, parallelParts(bytes.size() / kPartSize));
-  std::vector<ProtoConverter> parts(cuts.size() - 1);
-  inParallel(parts.size(), [&](std::size_t i) {
-    proto::Map field;
-    for (std::size_t begin = cuts[i], end = begin; begin < cuts[i + 1]; begin = end) {
-      end = fieldEnd(bytes, begin);
-      const bool is_read = field.ParsePartialFromArray(bytes.data() + begin, static_cast<int>(end - begin));
-      if (!is_read) failAt(file, bytes, begin);
-      parts[i].add(field);
-    }
-  });
-  if (cuts.back() < bytes.size()) failAt(file, bytes, cuts.back());
-  for (ProtoConverter& part : parts) converter->add(std::move(part));
-}
-
-MapData parse(const std::string& file) {
-  const std::string bytes = fileBytes(file);
-  ProtoConverter converter;
-  looksBinary(bytes) ? parseBinary(file, bytes, &converter) : parseText(file, bytes, &converter);
   MapData data = converter.take();
   data.file_digest = contentDigest(bytes);
   return data;
+}
+
+/// Parses what FieldStream hands out, on all processors.
+class BinaryParser {
+ public:
+  explicit BinaryParser(const MapFile& file) : file_(file), stream_(file), digest_(file.size()) {}
+
+  MapData parse() {
+    inParallel(parallelParts(digest_.parts()), [this](std::size_t) { work(); });
+    if (bad_at_ != kNoField) {
+      throw MapError(text(file_.path(), " is no map, or a damaged or truncated one: it makes no sense from byte ",
+                          bad_at_, " of ", file_.size(), " on", kWhatNext));
+    }
+    MapData data = ProtoConverter::takeAll(std::move(converters_));
+    data.file_digest = digest_.value();
+    return data;
+  }
+
+ private:
+  void work() {
+    FieldStream::Batch batch;
+    proto::Map field;
+    while (bad_at_ == kNoField && stream_.next(&batch)) {
+      for (std::size_t i = 0; i < batch.parts; ++i) {
+        digest_.add(batch.first_part + i, batch.bytes.data() + batch.parts_begin + i * ContentDigest::kPartSize);
+      }
+      ProtoConverter converter;
+      const std::size_t bad = convert(batch, &field, &converter);
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (bad != kNoField) bad_at_ = std::min<std::size_t>(bad_at_, batch.position + bad);
+      if (converters_.size() <= batch.index) converters_.resize(batch.index + 1);
+      converters_[batch.index] = std::move(converter);
+    }
+  }
+
+  /// A message cut between two of its fields is two messages, which merge into the one. So each lane is parsed into the
+  /// memory of the one before: faster than all of them at once, and without a second copy of the map.
+  /// @return  where a field makes no sense; kNoField where all do.
+  static std::size_t convert(const FieldStream::Batch& batch, proto::Map* field, ProtoConverter* converter) {
+    if (batch.end == 0) return 0;
+    for (std::size_t begin = 0, end = begin; begin < batch.end; begin = end) {
+      end = fieldEnd(batch.bytes, begin);
+      if (!field->ParsePartialFromArray(batch.bytes.data() + begin, static_cast<int>(end - begin))) return begin;
+      converter->add(*field);
+    }
+    return kNoField;
+  }
+
+  const MapFile& file_;
+  FieldStream stream_;
+  ContentDigest digest_;
+  std::atomic<std::size_t> bad_at_{kNoField};
+  std::mutex mutex_;
+  std::vector<ProtoConverter> converters_;  ///< of each batch
+};
+
+MapData parse(const std::string& path) {
+  const MapFile file(path);
+  return looksBinary(file) ? BinaryParser(file).parse() : parseText(file);
 }
 
 /// Middle of the box around the centre lines, to the metre.

@@ -139,12 +139,7 @@ bool hasUnknownType(const proto::Lane& lane) {
 
 template <class T>
 void append(std::vector<T>&& from, std::vector<T>* to) {
-  if (to->empty()) {
-    *to = std::move(from);
-  } else {
-    to->insert(to->end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
-  }
-  from = {};
+  to->insert(to->end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
 }
 
 }  // namespace
@@ -169,16 +164,23 @@ void ProtoConverter::add(const proto::Map& part) {
   }
 }
 
-void ProtoConverter::add(ProtoConverter&& following) {
-  MapData& from = following.data_;
-  if (!from.version.empty()) data_.version = std::move(from.version);
-  if (!from.projection.empty()) data_.projection = std::move(from.projection);
-  append(std::move(from.lanes), &data_.lanes);
-  append(std::move(from.roads), &data_.roads);
-  append(std::move(from.overlaps), &data_.overlaps);
-  append(std::move(from.junctions), &data_.junctions);
-  append(std::move(from.parking_spaces), &data_.parking_spaces);
-  append(std::move(from.areas), &data_.areas);
+MapData ProtoConverter::takeAll(std::vector<ProtoConverter> parts) {
+  MapData all;
+  std::size_t lanes = 0;
+  for (const ProtoConverter& part : parts) lanes += part.data_.lanes.size();
+  all.lanes.reserve(lanes);
+  for (ProtoConverter& part : parts) {
+    MapData from = std::move(part.data_);  // gone with its turn
+    if (!from.version.empty()) all.version = std::move(from.version);
+    if (!from.projection.empty()) all.projection = std::move(from.projection);
+    append(std::move(from.lanes), &all.lanes);
+    append(std::move(from.roads), &all.roads);
+    append(std::move(from.overlaps), &all.overlaps);
+    append(std::move(from.junctions), &all.junctions);
+    append(std::move(from.parking_spaces), &all.parking_spaces);
+    append(std::move(from.areas), &all.areas);
+  }
+  return all;
 }
 
 void ProtoConverter::addLane(const proto::Lane& message) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "external_command/map/map_data.h"
 #include "external_command/proto/base_map.pb.h"
 
@@ -12,11 +14,11 @@ class ProtoConverter {
  public:
   void add(const proto::Map& part);
 
-  /// Adds all that another gathered from what follows in the file, and leaves that one empty.
-  void add(ProtoConverter&& following);
-
   /// Everything added; call it once, at the end.
   MapData take() { return std::move(data_); }
+
+  /// What several gathered, from one part of the file after the other.
+  static MapData takeAll(std::vector<ProtoConverter> parts);
 
  private:
   void addLane(const proto::Lane& message);

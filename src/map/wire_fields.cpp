@@ -10,7 +10,7 @@
 
 namespace external_command {
 
-std::size_t fieldEnd(const std::string& bytes, std::size_t begin) {
+std::size_t fieldEnd(std::string_view bytes, std::size_t begin) {
   constexpr std::size_t kMost = std::numeric_limits<int>::max() - 16;
   const auto* first = reinterpret_cast<const std::uint8_t*>(bytes.data()) + begin;
   google::protobuf::io::CodedInputStream in(first, static_cast<int>(std::min(bytes.size() - begin, kMost)));
