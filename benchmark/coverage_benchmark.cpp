@@ -3,23 +3,26 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
+#include <iostream>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "command_line.h"
 #include "coverage_case.h"
 #include "coverage_check.h"
 #include "coverage_files.h"
 #include "external_command/core/error.h"
 #include "files.h"
 #include "made_fields.h"
+#include "options.h"
 #include "statistics.h"
 #include "support/command_path_check.h"
 
 namespace external_command {
 namespace benchmark {
+
+namespace po = boost::program_options;
 
 namespace {
 
@@ -27,19 +30,10 @@ constexpr const char* kUsage = R"(usage: benchmark_coverage [OPTION...] [FILE.ge
 Plans a path that sweeps each field, one line each and a summary. Needs no ROS master. The fields are the polygons of
 the files, and of all *.geojson in the folders; without any, fields of its own making: rectangles, L, U, rings, fields
 with columns, walls or a narrow neck, and random concave ones with holes, 60 m to 1 km across.
-  --random N        number of random fields (12)
-  --seed N          of the made fields (1)
-  --fields DIR      write each made field as DIR/NAME.geojson
-  --time-budget S   for each field (5)
-  --laps N          along border and holes; -1: as many as serve the objective (-1)
-  --objective NAME  shortest or fewest_turns (shortest)
-  --gear-cost M     price of a change of gear, as length (the planner's default)
-  --no-reverse      plan for a vehicle that is not to reverse
-  --target SHARE    of the reachable area that is to be swept, what is more only where it costs little (0.993)
-  --paths DIR       write each path as DIR/NAME.json: [[x, y, theta, direction, tool], ...]
-  --svg DIR         draw each path as DIR/NAME.svg: swept green, left out red
-  --help            print this
-In a file: planar coordinates [m], and the properties, each of which may be left out, name, swath_width (4), start
+)";
+
+constexpr const char* kDetails =
+    R"(In a file: planar coordinates [m], and the properties, each of which may be left out, name, swath_width (4), start
 [x, y, theta] of the rear axle, vehicle {wheelbase (2.5), width (2), front_overhang (0.8), rear_overhang (0.9),
 min_turning_radius (5) or max_steer}.
 Columns: area without holes [ha]; swept share of what the vehicle can reach (the area shrunk by half the larger of
@@ -55,7 +49,7 @@ constexpr double kLargeField = 12000.0;  // [m^2]
 struct Options {
   CoverageParams params;
   int random_fields = 12;
-  unsigned seed = 1;
+  int seed = 1;
   std::vector<std::string> inputs;
   std::string fields;
   std::string paths;
@@ -72,25 +66,35 @@ struct Summary {
 CoverageObjective objectiveOf(const std::string& name) {
   if (name == "shortest") return CoverageObjective::kShortest;
   if (name == "fewest_turns") return CoverageObjective::kFewestTurns;
-  throw std::invalid_argument("--objective is shortest or fewest_turns, not " + name);
+  throw po::error("--objective is shortest or fewest_turns, not " + name);
 }
 
-Options parse(CommandLine line) {
-  Options options;
-  CoverageParams& params = options.params;
+po::options_description describe(Options* options) {
+  CoverageParams& params = options->params;
   params.time_budget = 5.0;
-  options.inputs = line.parse({{"--random", [&] { options.random_fields = line.integer(0); }},
-                               {"--seed", [&] { options.seed = static_cast<unsigned>(line.integer(0)); }},
-                               {"--fields", [&] { options.fields = line.value(); }},
-                               {"--time-budget", [&] { params.time_budget = line.number(); }},
-                               {"--laps", [&] { params.headland_laps = line.integer(-1); }},
-                               {"--objective", [&] { params.objective = objectiveOf(line.value()); }},
-                               {"--gear-cost", [&] { params.gear_change_cost = line.number(); }},
-                               {"--no-reverse", [&] { params.reverse_to_turn = false; }},
-                               {"--target", [&] { params.target_coverage = line.number(); }},
-                               {"--paths", [&] { options.paths = line.value(); }},
-                               {"--svg", [&] { options.drawings = line.value(); }}});
-  return options;
+  po::options_description known = noOptions();
+  auto add = known.add_options();
+  add("random", integer("random", 0, &options->random_fields), "number of random fields");
+  add("seed", integer("seed", 0, &options->seed), "of the made fields");
+  add("fields", po::value(&options->fields)->value_name("DIR"), "write each made field as DIR/NAME.geojson");
+  add("time-budget", number("time-budget", &params.time_budget), "for each field [s]");
+  add("laps", integer("laps", -1, &params.headland_laps), "along border and holes; -1: as many as serve the objective");
+  add("objective",
+      po::value<std::string>()
+          ->value_name("NAME")
+          ->default_value("shortest")
+          ->notifier([&params](const std::string& name) { params.objective = objectiveOf(name); }),
+      "shortest or fewest_turns");
+  add("gear-cost", number("gear-cost", &params.gear_change_cost), "price of a change of gear, as length [m]");
+  add("no-reverse", po::bool_switch()->notifier([&params](bool is_given) { params.reverse_to_turn = !is_given; }),
+      "plan for a vehicle that is not to reverse");
+  add("target", number("target", &params.target_coverage),
+      "of the reachable area that is to be swept, as share; what is more only where it costs little");
+  add("paths", po::value(&options->paths)->value_name("DIR"),
+      "write each path as DIR/NAME.json: [[x, y, theta, direction, tool], ...]");
+  add("svg", po::value(&options->drawings)->value_name("DIR"),
+      "draw each path as DIR/NAME.svg: swept green, left out red");
+  return known;
 }
 
 /// With a number behind each name that there was before.
@@ -110,7 +114,7 @@ std::vector<CoverageCase> fieldsOf(const Options& options) {
     for (CoverageCase& field : readCoverageCases(file, &skipped)) fields.push_back(std::move(field));
   }
   for (const std::string& text : skipped) std::fprintf(stderr, "%s\n", text.c_str());
-  if (options.inputs.empty()) fields = makeFields(options.seed, options.random_fields);
+  if (options.inputs.empty()) fields = makeFields(static_cast<unsigned>(options.seed), options.random_fields);
   makeNamesUnique(&fields);
   if (options.inputs.empty() && !options.fields.empty()) {
     for (const CoverageCase& field : fields) writeCoverageCase(field, options.fields + "/" + field.name + ".geojson");
@@ -174,12 +178,13 @@ void print(const Summary& summary) {
               median(summary.changes), largest(summary.changes), median(summary.times), largest(summary.times));
 }
 
-int run(const CommandLine& line) {
-  if (line.asksForHelp()) {
-    std::fputs(kUsage, stdout);
+int run(const std::vector<std::string>& words) {
+  Options options;
+  const po::options_description known = describe(&options);
+  if (!parse(words, known, &options.inputs)) {
+    std::cout << kUsage << known << kDetails;
     return 0;
   }
-  const Options options = parse(line);
   options.params.validate();
   makeFolders({options.fields, options.paths, options.drawings});
   Summary summary;
@@ -198,7 +203,7 @@ int run(const CommandLine& line) {
 
 int main(int argc, char** argv) {
   try {
-    return external_command::benchmark::run(external_command::benchmark::CommandLine({argv + 1, argv + argc}));
+    return external_command::benchmark::run({argv + 1, argv + argc});
   } catch (const std::exception& error) {
     std::fprintf(stderr, "benchmark_coverage: %s\nSee benchmark_coverage --help.\n", error.what());
     return 2;

@@ -3,18 +3,19 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <iostream>
 #include <map>
 #include <numeric>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "command_line.h"
 #include "external_command/core/error.h"
 #include "external_command/free_space/free_space_planner.h"
 #include "external_command/free_space/planner_log.h"
 #include "files.h"
 #include "made_cases.h"
+#include "options.h"
 #include "parking_case.h"
 #include "path_files.h"
 #include "statistics.h"
@@ -23,29 +24,17 @@
 namespace external_command {
 namespace benchmark {
 
+namespace po = boost::program_options;
+
 namespace {
 
 constexpr const char* kUsage = R"(usage: benchmark_free_space [OPTION...] DIR|FILE...
        benchmark_free_space --made SEED [OPTION...]
 Plans every parking case (*.json), one line each and a summary. Needs no ROS master.
-  --made SEED       hard cases made with these random numbers: slaloms, car parks, docks, alleys, mazes, long roads
-  --only TEXT       those cases whose name contains TEXT
-  --cases DIR       write each case as DIR/CASE.json
-  --time-budget S   for each case, improvement included (1)
-  --improve S       of it, for improving the first path (all that is left)
-  --planner NAME    portfolio, hybrid_astar, or OMPL's rrtconnect, rrtstar, kpiece (portfolio)
-  --seed N          of the random numbers (1)
-  --threads N       that improve the path side by side (1)
-  --margin M        distance kept to all obstacles [m] (0.01)
-  --reverse-factor F     price of a metre in reverse, as length forward (2)
-  --gear-change-cost M   price of a gear change, as length [m] (3)
-  --steering-cost M      price of turning the wheels from straight on to full lock, as length [m] (0.2)
-  --closeness-cost F     price of a metre beside an obstacle at the margin, as length (0.3)
-  --closeness-distance M    beyond the margin, from where on that is nothing [m] (0.5)
-  --jumps           curvature that jumps from arc to arc, as the search leaves it
-  --paths DIR       write each path as DIR/CASE.json: [[x, y, theta, direction], ...]
-  --svg DIR         draw each path as DIR/CASE.svg
-Columns: time and plain cost of the first valid path, plain cost of the final one (in brackets: of best_known.json
+)";
+
+constexpr const char* kDetails =
+    R"(Columns: time and plain cost of the first valid path, plain cost of the final one (in brackets: of best_known.json
 beside the cases), its cost with all prices, its length, that in reverse and that near obstacles [m], gear changes,
 turns of the wheels between them (1: from straight on to full lock), how long a vehicle at manoeuvre speed waits for
 these [s], clearance [m], and the time that the case took on the wall clock and on the processor [s]. The plain cost,
@@ -57,6 +46,9 @@ struct Options {
   FreeSpaceParams params;
   std::vector<std::string> inputs;
   int made = -1;  // seed of made cases; -1: none
+  int seed = 1;
+  int threads = 1;
+  double improve = -1.0;  // [s]; below 0: all that is left of the time budget
   std::string only;
   std::string cases;
   std::string paths;
@@ -71,32 +63,49 @@ struct Summary {
   std::vector<double> first_times, first_ratios, ratios, cpu_times;
 };
 
-Options parse(CommandLine line) {
-  Options options;
-  FreeSpaceParams& params = options.params;
+po::options_description describe(Options* options) {
+  FreeSpaceParams& params = options->params;
   params.margin = 0.01;
+  po::options_description known = noOptions();
+  auto add = known.add_options();
+  add("made", integer("made", -1, &options->made)->value_name("SEED"),
+      "hard cases made with these random numbers (slaloms, car parks, docks, alleys, mazes, long roads); -1: none");
+  add("only", po::value(&options->only)->value_name("TEXT"), "those cases whose name contains TEXT");
+  add("cases", po::value(&options->cases)->value_name("DIR"), "write each case as DIR/CASE.json");
+  add("time-budget", number("time-budget", &params.time_budget), "for each case, improvement included [s]");
+  add("improve", number("improve", &options->improve),
+      "of it, for improving the first path [s]; below 0: all that is left");
+  add("planner", po::value(&params.planner)->value_name("NAME")->default_value(params.planner),
+      "portfolio, hybrid_astar, or OMPL's rrtconnect, rrtstar, kpiece");
+  add("seed", integer("seed", 0, &options->seed), "of the random numbers");
+  add("threads", integer("threads", 0, &options->threads), "that improve the path side by side");
+  add("margin", number("margin", &params.margin), "distance kept to all obstacles [m]");
+  add("reverse-factor", number("reverse-factor", &params.reverse_factor),
+      "price of a metre in reverse, as length forward [m]");
+  add("gear-change-cost", number("gear-change-cost", &params.gear_change_cost),
+      "price of a gear change, as length [m]");
+  add("steering-cost", number("steering-cost", &params.steering_cost),
+      "price of turning the wheels from straight on to full lock, as length [m]");
+  add("closeness-cost", number("closeness-cost", &params.closeness_cost),
+      "price of a metre beside an obstacle at the margin, as length [m]");
+  add("closeness-distance", number("closeness-distance", &params.closeness_distance),
+      "beyond the margin, from where on that is nothing [m]");
+  add("jumps", po::bool_switch()->notifier([&params](bool is_given) { params.continuous_curvature = !is_given; }),
+      "curvature that jumps from arc to arc, as the search leaves it");
+  add("paths", po::value(&options->paths)->value_name("DIR"),
+      "write each path as DIR/CASE.json: [[x, y, theta, direction], ...]");
+  add("svg", po::value(&options->drawings)->value_name("DIR"), "draw each path as DIR/CASE.svg");
+  return known;
+}
+
+/// What follows from the options that were given.
+void complete(Options* options) {
+  FreeSpaceParams& params = options->params;
   params.improve_iterations = 0;
-  double improve = -1.0;
-  options.inputs = line.parse({{"--made", [&] { options.made = line.integer(0); }},
-                               {"--only", [&] { options.only = line.value(); }},
-                               {"--cases", [&] { options.cases = line.value(); }},
-                               {"--time-budget", [&] { params.time_budget = line.number(); }},
-                               {"--improve", [&] { improve = line.number(); }},
-                               {"--planner", [&] { params.planner = line.value(); }},
-                               {"--seed", [&] { params.seed = static_cast<unsigned>(line.integer(0)); }},
-                               {"--threads", [&] { params.threads = static_cast<unsigned>(line.integer(0)); }},
-                               {"--margin", [&] { params.margin = line.number(); }},
-                               {"--reverse-factor", [&] { params.reverse_factor = line.number(); }},
-                               {"--gear-change-cost", [&] { params.gear_change_cost = line.number(); }},
-                               {"--steering-cost", [&] { params.steering_cost = line.number(); }},
-                               {"--closeness-cost", [&] { params.closeness_cost = line.number(); }},
-                               {"--closeness-distance", [&] { params.closeness_distance = line.number(); }},
-                               {"--jumps", [&] { params.continuous_curvature = false; }},
-                               {"--paths", [&] { options.paths = line.value(); }},
-                               {"--svg", [&] { options.drawings = line.value(); }}});
-  params.improve_budget = improve < 0.0 ? params.time_budget : improve;
-  if (options.inputs.empty() && options.made < 0) throw std::invalid_argument("give a folder or files of cases");
-  return options;
+  params.seed = static_cast<unsigned>(options->seed);
+  params.threads = static_cast<unsigned>(options->threads);
+  params.improve_budget = options->improve < 0.0 ? params.time_budget : options->improve;
+  if (options->inputs.empty() && options->made < 0) throw std::invalid_argument("give a folder or files of cases");
 }
 
 /// What best_known.json counts, whatever the prices of the search are.
@@ -189,12 +198,14 @@ void print(const Summary& summary) {
       median(summary.cpu_times), largest(summary.cpu_times), summary.faulty);
 }
 
-int run(const CommandLine& line) {
-  if (line.asksForHelp()) {
-    std::fputs(kUsage, stdout);
+int run(const std::vector<std::string>& words) {
+  Options options;
+  const po::options_description known = describe(&options);
+  if (!parse(words, known, &options.inputs)) {
+    std::cout << kUsage << known << kDetails;
     return 0;
   }
-  const Options options = parse(line);
+  complete(&options);
   options.params.validate();
   makeFolders({options.cases, options.paths, options.drawings});
   const auto silence = PlannerLog::acquire({});
@@ -218,7 +229,7 @@ int run(const CommandLine& line) {
 
 int main(int argc, char** argv) {
   try {
-    return external_command::benchmark::run(external_command::benchmark::CommandLine({argv + 1, argv + argc}));
+    return external_command::benchmark::run({argv + 1, argv + argc});
   } catch (const std::exception& error) {
     std::fprintf(stderr, "benchmark_free_space: %s\nSee benchmark_free_space --help.\n", error.what());
     return 2;

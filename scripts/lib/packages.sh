@@ -24,7 +24,7 @@ EC_DEBIAN_RUN_PACKAGES=(
   netbase  # makes /etc/hosts where there is none, as in a bare chroot: ROS needs the name localhost
 )
 EC_DEBIAN_TEST_PACKAGES=(
-  catkin-lint libgtest-dev librostest-dev python3-rostest
+  catkin-lint libboost-program-options-dev libgtest-dev librostest-dev python3-rostest
   python3-numpy python3-rosnode python3-rosparam python3-rospkg python3-rostopic
   rviz  # what demo.launch starts
   librviz-dev  # its panel is built where it is, and with it ec_qt_package
@@ -45,7 +45,7 @@ EC_NOETIC_RUN_PACKAGES=(
   ros-noetic-roslaunch ros-noetic-roslib ros-noetic-rospy ros-noetic-rosservice ros-noetic-tf2-ros
 )
 EC_NOETIC_TEST_PACKAGES=(
-  libgtest-dev python3-catkin-lint python3-numpy python3-rospkg
+  libboost-program-options-dev libgtest-dev python3-catkin-lint python3-numpy python3-rospkg
   ros-noetic-rosnode ros-noetic-rosparam ros-noetic-rostest ros-noetic-rostopic
   ros-noetic-rviz
 )

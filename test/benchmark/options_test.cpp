@@ -1,33 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../benchmark/command_line.h"
+#include "../benchmark/options.h"
 
 #include <gtest/gtest.h>
-
-#include <stdexcept>
 
 namespace external_command {
 namespace benchmark {
 namespace {
 
-/// What is left of the words when `--size` takes a number and `--count` a whole one from 1 up.
-std::vector<std::string> inputsOf(const std::vector<std::string>& words, double* size, int* count) {
-  CommandLine line(words);
-  return line.parse({{"--size", [&] { *size = line.number(); }}, {"--count", [&] { *count = line.integer(1); }}});
-}
+class Options : public testing::Test {
+ protected:
+  bool isRead(const std::vector<std::string>& words) {
+    inputs.clear();
+    boost::program_options::options_description options;
+    options.add_options()("size", number("size", &size), "how large")("count", integer("count", 1, &count), "how many");
+    return parse(words, options, &inputs);
+  }
 
-TEST(CommandLine, ReadsOptionsAndLeavesInputs) {
   double size = 0.0;
-  int count = 0;
-  EXPECT_EQ(inputsOf({"a", "--size", "-1.5", "b", "--count", "3"}, &size, &count),
-            (std::vector<std::string>{"a", "b"}));
+  int count = 2;
+  std::vector<std::string> inputs;
+};
+
+TEST_F(Options, AreReadAndInputsLeft) {
+  EXPECT_TRUE(isRead({"a", "--size", "-1.5", "b", "--count", "3"}));
+  EXPECT_EQ(inputs, (std::vector<std::string>{"a", "b"}));
   EXPECT_EQ(size, -1.5);
   EXPECT_EQ(count, 3);
 }
 
-TEST(CommandLine, RefusesWhatIsUnknownMissingOrNoNumber) {
-  double size = 0.0;
-  int count = 0;
+TEST_F(Options, MayAskForHelpOnly) {
+  EXPECT_FALSE(isRead({"--help"}));
+  EXPECT_FALSE(isRead({"a", "--count", "3", "--help"}));
+  EXPECT_EQ(count, 2);
+}
+
+TEST_F(Options, AreRefusedWhereUnknownMissingOrNoNumber) {
   for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{{"--colour", "red"},
+                                                                                     {"--siz", "3"},
                                                                                      {"--size"},
                                                                                      {"--size", "--count", "3"},
                                                                                      {"--size", "big"},
@@ -37,7 +46,12 @@ TEST(CommandLine, RefusesWhatIsUnknownMissingOrNoNumber) {
                                                                                      {"--count", "0"},
                                                                                      {"--count", "1.5"},
                                                                                      {"--count", "1e20"}}) {
-    EXPECT_THROW(inputsOf(words, &size, &count), std::invalid_argument) << words[0] << " " << words.back();
+    try {
+      isRead(words);
+      ADD_FAILURE() << words[0] << " " << words.back() << " is taken";
+    } catch (const boost::program_options::error& error) {
+      EXPECT_NE(std::string(error.what()).find(words[0]), std::string::npos) << error.what();
+    }
   }
 }
 
