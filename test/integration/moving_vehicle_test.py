@@ -17,6 +17,7 @@ from vehicle import Vehicle
 
 FAST = 10.0  # [m/s]
 NEAR = 3.0  # from the vehicle, when the test sees it, to the begin of the path, where messages take 0.2 s [m]
+TRIES = 3
 
 
 class MovingVehicleTest(unittest.TestCase):
@@ -37,6 +38,14 @@ class MovingVehicleTest(unittest.TestCase):
         support.service("external_command/action", Action)(ActionCommand(command=ActionCommand.CLEAR_PLANNING))
         self.vehicle.wait_until_standing()
 
+    def send(self, name, service_type, command_of_now):
+        """A busy machine may plan too slowly: the vehicle is too far on by then, and goes on with what it has."""
+        for _ in range(TRIES):
+            status = support.service("external_command/" + name, service_type)(command_of_now()).status
+            if status.error_code not in (CommandStatus.PLANNING_TIMEOUT, CommandStatus.START_BLOCKED):
+                break
+        return status
+
     def assert_taken_over(self, status):
         """The vehicle drives the new command, and did not stop for it."""
         self.assertEqual(status.status, CommandStatus.RUNNING, support.describe(status))
@@ -51,16 +60,18 @@ class MovingVehicleTest(unittest.TestCase):
         self.assertEqual(support.command_status(status.command_id).status, CommandStatus.RUNNING)
 
     def test_to_a_free_space_command(self):
-        goal = self.vehicle.ahead((150.0, 20.0))[0]
-        spot = Pose(x=goal.x, y=goal.y, heading=self.vehicle.pose[2], has_heading=True)
-        command = FreeSpaceCommand(parking_spot_pose=spot)
-        self.assert_taken_over(support.service("external_command/free_space", FreeSpace)(command).status)
+        def command():
+            goal = self.vehicle.ahead((150.0, 20.0))[0]
+            spot = Pose(x=goal.x, y=goal.y, heading=self.vehicle.pose[2], has_heading=True)
+            return FreeSpaceCommand(parking_spot_pose=spot)
+        self.assert_taken_over(self.send("free_space", FreeSpace, command))
 
     def test_to_a_zone(self):
-        corners = self.vehicle.ahead((-20.0, -40.0), (160.0, -40.0), (160.0, 40.0), (-20.0, 40.0))
-        command = ZoneCoverCommand(drivable_roi=RoiPolygon(points=[Point(p.x, p.y, 0.0) for p in corners]),
-                                   swath_width=4.0)
-        self.assert_taken_over(support.service("external_command/zone_cover", ZoneCover)(command).status)
+        def command():
+            corners = self.vehicle.ahead((-20.0, -40.0), (160.0, -40.0), (160.0, 40.0), (-20.0, 40.0))
+            return ZoneCoverCommand(drivable_roi=RoiPolygon(points=[Point(p.x, p.y, 0.0) for p in corners]),
+                                    swath_width=4.0)
+        self.assert_taken_over(self.send("zone_cover", ZoneCover, command))
 
 
 if __name__ == "__main__":
