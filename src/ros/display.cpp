@@ -86,7 +86,8 @@ Display::Display(ros::NodeHandle nh, const DisplayParams& params, std::shared_pt
       nh_, params_.look_at_topic, 1,
       [this](const ros::MessageEvent<geometry_msgs::PointStamped const>& event) { lookAt(*event.getMessage()); },
       params_.requests);
-  command_timer_ = executor_.every(kCommandPeriod, [this] { drawNewest(); });
+  command_timer_ = executor_.every(
+      kCommandPeriod, [this] { drawNewest(); }, [this] { return has_news_.load(); });
   map_timer_ = executor_.every(kMapPeriod, [this] { drawMap(); });
   ids_timer_ = executor_.every(kIdsPeriod, [this] { drawIds(); });
 }
@@ -147,11 +148,13 @@ void Display::show(CommandScene scene) {
   const std::lock_guard<std::mutex> lock(mutex_);
   sent_ = std::move(scene);
   refused_.reset();
+  has_news_ = true;
 }
 
 void Display::showRefused(CommandScene scene) {
   const std::lock_guard<std::mutex> lock(mutex_);
   refused_ = std::move(scene);
+  has_news_ = true;
 }
 
 void Display::drawNewest() {
@@ -160,6 +163,7 @@ void Display::drawNewest() {
     const std::lock_guard<std::mutex> lock(mutex_);
     sent.swap(sent_);
     refused.swap(refused_);
+    has_news_ = false;
   }
   for (const auto& scene : {sent, refused}) {
     if (!scene) continue;

@@ -68,7 +68,9 @@ void Executor::post(std::function<void()> job) {
   queues_->guarded.addCallback(boost::make_shared<Job>(std::move(job)), 0);
 }
 
-Periodic Executor::every(double period, std::function<void()> job) { return {period, queue(), std::move(job)}; }
+Periodic Executor::every(double period, std::function<void()> job, Periodic::Wanted wanted) {
+  return {period, queue(), std::move(job), std::move(wanted)};
+}
 
 void Executor::stop() {
   queues_->queue.disable();

@@ -24,6 +24,7 @@ struct Periodic::Job {
   Clock::duration period;
   ros::CallbackQueueInterface* queue;
   std::function<void()> call;
+  Wanted wanted;
   std::atomic<bool> is_in_queue{false};  ///< or runs
   std::recursive_mutex running;          ///< held while it is called, which may stop it
   bool is_stopped = false;
@@ -99,6 +100,7 @@ class Periodic::Ticker {
     const std::shared_ptr<Job> job = due_.begin()->second;
     due_.erase(due_.begin());
     job->place = due_.emplace(std::max(planned + job->period, Clock::now()), job);
+    if (job->wanted && !job->wanted()) return;
     if (!job->is_in_queue.exchange(true)) job->queue->addCallback(boost::make_shared<Tick>(job), job->id());
   }
 
@@ -109,11 +111,12 @@ class Periodic::Ticker {
   boost::thread thread_;
 };
 
-Periodic::Periodic(double period, ros::CallbackQueueInterface* queue, std::function<void()> job)
+Periodic::Periodic(double period, ros::CallbackQueueInterface* queue, std::function<void()> job, Wanted wanted)
     : ticker_(Ticker::acquire()), job_(std::make_shared<Job>()) {
   job_->period = boost::chrono::duration_cast<Clock::duration>(boost::chrono::duration<double>(period));
   job_->queue = queue;
   job_->call = std::move(job);
+  job_->wanted = std::move(wanted);
   ticker_->add(job_);
 }
 

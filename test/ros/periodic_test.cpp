@@ -28,6 +28,23 @@ TEST(Periodic, CallsAgainAndAgain) {
   EXPECT_TRUE(becomes([&] { return calls >= 5; }));
 }
 
+TEST(Periodic, CallsOnlyWhileItIsWanted) {
+  Executor executor;
+  std::atomic<int> calls{0};
+  std::atomic<bool> is_wanted{false};
+  const Periodic periodic = executor.every(
+      0.005, [&] { ++calls; }, [&] { return is_wanted.load(); });
+  std::this_thread::sleep_for(milliseconds(50));
+  EXPECT_EQ(calls, 0);
+  is_wanted = true;
+  EXPECT_TRUE(becomes([&] { return calls >= 3; }));
+  is_wanted = false;
+  std::this_thread::sleep_for(milliseconds(50));
+  const int before = calls;
+  std::this_thread::sleep_for(milliseconds(50));
+  EXPECT_EQ(calls, before);
+}
+
 TEST(Periodic, CallsNoMoreOnceStopped) {
   Executor executor;
   std::atomic<int> calls{0};

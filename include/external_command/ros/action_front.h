@@ -36,10 +36,9 @@ class ActionFront : public CommandAction {
   ActionFront(ProcessContext& context, const ros::NodeHandle& nh, const std::string& name, Processor processor)
       : processor_(std::move(processor)), server_(context, nh, name, callbacks()), goals_(context, name) {
     server_.open();
-    timer_ = goals_.executor().every(kPeriod, [this] {
-      goals_.look();
-      is_even_ = !is_even_;
-      if (is_even_) return;
+    look_timer_ = goals_.executor().every(
+        kLookPeriod, [this] { goals_.look(); }, [this] { return goals_.areThere(); });
+    status_timer_ = goals_.executor().every(kStatusPeriod, [this] {
       server_.tick();
       goals_.tick();
     });
@@ -47,7 +46,8 @@ class ActionFront : public CommandAction {
 
   ~ActionFront() override {
     stopTaking();
-    timer_.stop();
+    look_timer_.stop();
+    status_timer_.stop();
   }
 
   void stopTaking() override { server_.close(); }
@@ -56,7 +56,8 @@ class ActionFront : public CommandAction {
   using Server = BoundedActionServer<Action>;
   using GoalHandle = typename Server::GoalHandle;
 
-  static constexpr double kPeriod = 0.1;  // half of that of feedback and status [s]
+  static constexpr double kLookPeriod = 0.1;    // [s]
+  static constexpr double kStatusPeriod = 0.2;  // of feedback and status [s]
 
   class Client : public ClientGoal {
    public:
@@ -130,9 +131,8 @@ class ActionFront : public CommandAction {
 
   const Processor processor_;
   Server server_;
-  ActionGoals goals_;     // after the server, by which it tells its clients how they end
-  bool is_even_ = false;  ///< of the timer
-  Periodic timer_;
+  ActionGoals goals_;  // after the server, by which it tells its clients how they end
+  Periodic look_timer_, status_timer_;
 };
 
 /// Opens the action when the service is opened, unless the parameter `actions` is false.

@@ -78,7 +78,10 @@ class ActionGoals {
   /// @param by  who cancels it, for the status' message.
   void cancel(const std::string& id, const std::string& by);
 
-  /// Tells what was kept back; to be called on executor() every 0.1 s.
+  /// Whether there are goals that have not ended.
+  bool areThere() const { return line_->goals > 0; }
+
+  /// Tells what was kept back; to be called on executor() every 0.1 s while there are goals.
   void look();
 
   /// Tells every client how its command fares; to be called on executor() a few times per second.

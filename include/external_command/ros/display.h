@@ -4,6 +4,7 @@
 #include <geometry_msgs/PointStamped.h>
 #include <ros/node_handle.h>
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -83,6 +84,7 @@ class Display {
   ros::Subscriber look_at_subscriber_;
   std::mutex mutex_;
   std::optional<CommandScene> sent_, refused_;  ///< still to be drawn
+  std::atomic<bool> has_news_{false};           ///< one of these
   Periodic command_timer_, map_timer_, ids_timer_;
 };
 

@@ -44,8 +44,9 @@ class Executor {
   /// Runs `job` on the executor. After stop() it is dropped.
   void post(std::function<void()> job);
 
-  /// Runs `job` every `period` [s] for as long as what it returns lives, which must not be longer than the executor.
-  [[nodiscard]] Periodic every(double period, std::function<void()> job);
+  /// Runs `job` every `period` [s], where it is `wanted` (see Periodic), for as long as what it returns lives, which
+  /// must not be longer than the executor.
+  [[nodiscard]] Periodic every(double period, std::function<void()> job, Periodic::Wanted wanted = {});
 
   /// Waits for running callbacks and drops the waiting ones. Idempotent. Not from a callback of the executor itself.
   void stop();

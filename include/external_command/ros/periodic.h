@@ -17,9 +17,14 @@ class Periodic {
  public:
   Periodic() = default;  ///< calls nothing
 
+  /// Whether there is anything to do: where not, no thread is woken for the call. Asked by the thread that keeps the
+  /// time for all, so it must not wait.
+  using Wanted = std::function<bool()>;
+
   /// @param period  above 0 [s]
   /// @param queue   must live as long as this.
-  Periodic(double period, ros::CallbackQueueInterface* queue, std::function<void()> job);
+  /// @param wanted  empty: always.
+  Periodic(double period, ros::CallbackQueueInterface* queue, std::function<void()> job, Wanted wanted = {});
 
   Periodic(Periodic&&) = default;
   Periodic& operator=(Periodic&& other) noexcept;

@@ -110,7 +110,8 @@ void ActionCommandProcessor::subscribe() {
     const std::lock_guard<std::mutex> lock(mutex_);
     record(pending_->onMotionSent(motion.command));
   });
-  timer_ = watch_executor_.every(kTick, [this] { onTick(); });
+  timer_ = watch_executor_.every(
+      kTick, [this] { onTick(); }, [this] { return is_waiting_.load(); });
 }
 
 void ActionCommandProcessor::check(const ActionCommand& command) const {
@@ -141,6 +142,7 @@ CommandStatus ActionCommandProcessor::sendAndWatch(const ActionCommand& command,
   const std::lock_guard<std::mutex> lock(mutex_);
   if (command.command != ActionCommand::STOP) context().registry().requireRunning(admitted);
   record(pending_->add(admitted, command.command, now()));
+  is_waiting_ = true;
   if (command.command == ActionCommand::STOP) {
     context().gate().stop(true, [this] { context().planningPads().send(PlanningPad::STOP); });
   } else if (command.command == ActionCommand::VIN_REQ) {
@@ -176,6 +178,7 @@ CommandStatus ActionCommandProcessor::switchMode(const AdmittedCommand& admitted
                                              text("superseded by mode switch ", admitted.id))});
   }
   switch_.emplace(RunningSwitch{admitted, ModeSwitch(target, mode_switch_params_, mode_is_settled_, now())});
+  is_waiting_ = true;
   if (!to_manual) return advanceSwitch().status;
   CommandStatus status;
   context().gate().stop(false, [&] { status = advanceSwitch().status; });
@@ -225,6 +228,7 @@ void ActionCommandProcessor::onTick() {
   pending_->keepWhere([this](CommandSerial serial) { return context().registry().isRunning(serial); });
   record(pending_->onTime(now()));
   goOnSwitching();
+  is_waiting_ = !pending_->empty() || switch_.has_value();
 }
 
 void ActionCommandProcessor::goOnSwitching() {

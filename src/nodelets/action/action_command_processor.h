@@ -3,6 +3,7 @@
 
 #include <ros/steady_timer.h>
 
+#include <atomic>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -66,6 +67,7 @@ class ActionCommandProcessor : public ServiceCommandProcessor<Action> {
   std::optional<RunningSwitch> switch_;
   bool mode_is_settled_ = true;  ///< no mode is asked for that the chassis may still go into
   std::optional<HeardChassis> chassis_;
+  std::atomic<bool> is_waiting_{false};  ///< there may be something pending, or a switch running
 
   Executor watch_executor_{
       ExecutorOptions{"the executor of the chassis"}};  // before its users: they leave its queue first

@@ -62,6 +62,8 @@ class PendingActions {
   Changes onChassis(const Chassis& chassis);
   Changes onTime(double now);
 
+  bool empty() const { return pending_.empty(); }
+
   /// Waits no longer for those whose command was ended otherwise: for them `is_running` is false.
   void keepWhere(const std::function<bool(CommandSerial)>& is_running);
 

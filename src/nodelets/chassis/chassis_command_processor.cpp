@@ -85,11 +85,15 @@ void ChassisCommandProcessor::subscribe(double timeout) {
     record(pending_->onChassis(event.getConstMessage()->signal));
   };
   chassis_subscriber_ = subscribeBounded<Chassis>(nh, topic, 10, on_chassis, context().params().requests);
-  timer_ = watch_executor_.every(kTick, [this] {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    pending_->keepWhere([this](CommandSerial serial) { return context().registry().isRunning(serial); });
-    record(pending_->onTime(now()));
-  });
+  timer_ = watch_executor_.every(
+      kTick, [this] { onTick(); }, [this] { return is_waiting_.load(); });
+}
+
+void ChassisCommandProcessor::onTick() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  pending_->keepWhere([this](CommandSerial serial) { return context().registry().isRunning(serial); });
+  record(pending_->onTime(now()));
+  is_waiting_ = !pending_->empty();
 }
 
 void ChassisCommandProcessor::check(const ChassisCommand& command) const {
@@ -104,6 +108,7 @@ CommandStatus ChassisCommandProcessor::execute(const ChassisCommand& command, co
   context().registry().requireRunning(admitted);
   const bool changes_signals = commandsAny(command.basic_signal);
   if (changes_signals) record(pending_->add(admitted, command.basic_signal, now()));
+  is_waiting_ = true;
   for (const ros::Publisher& publisher : publishers_) publisher.publish(command);
   if (!changes_signals) {
     return makeStatus(command.command_id, CommandStatus::FINISHED, ErrorCode::kOk,

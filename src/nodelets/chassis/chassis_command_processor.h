@@ -3,6 +3,7 @@
 
 #include <ros/steady_timer.h>
 
+#include <atomic>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -26,6 +27,7 @@ class ChassisCommandProcessor : public ServiceCommandProcessor<ChassisControl> {
   void subscribe(double timeout);
   void check(const ChassisCommand& command) const override;
   CommandStatus execute(const ChassisCommand& command, const AdmittedCommand& admitted, Response* response) override;
+  void onTick();
   void record(const PendingSignals::Changes& changes);
 
   double max_request_age_ = 2.0;  ///< [s]
@@ -34,6 +36,7 @@ class ChassisCommandProcessor : public ServiceCommandProcessor<ChassisControl> {
   std::mutex mutex_;
   std::optional<PendingSignals> pending_;  ///< these guarded by the mutex
   std::optional<HeardChassis> chassis_;
+  std::atomic<bool> is_waiting_{false};  ///< there may be something pending
 
   Executor watch_executor_{
       ExecutorOptions{"the executor of the chassis' signals"}};  // before its users: they leave its queue first

@@ -32,6 +32,8 @@ class PendingSignals {
   Changes onChassis(const VehicleSignal& reported);
   Changes onTime(double now);
 
+  bool empty() const { return pending_.empty(); }
+
   /// Waits no longer for those whose command was ended otherwise: for them `is_running` is false.
   void keepWhere(const std::function<bool(CommandSerial)>& is_running);
 

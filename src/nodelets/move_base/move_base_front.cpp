@@ -15,7 +15,8 @@ namespace {
 
 using ActionServer = BoundedActionServer<move_base_msgs::MoveBaseAction>;
 
-constexpr double kPeriod = 0.1;  // half of that of feedback and status [s]
+constexpr double kLookPeriod = 0.1;    // [s]
+constexpr double kStatusPeriod = 0.2;  // of feedback and status [s]
 
 class Client : public ClientGoal {
  public:
@@ -73,7 +74,9 @@ class MoveBaseFront::Server {
 
   void open() {
     server_.open();
-    timer_ = goals_.executor().every(kPeriod, [this] { look(); });
+    look_timer_ = goals_.executor().every(
+        kLookPeriod, [this] { goals_.look(); }, [this] { return goals_.areThere(); });
+    status_timer_ = goals_.executor().every(kStatusPeriod, [this] { tellStatus(); });
     if (goal_topic_.empty()) return;
     nh_.setCallbackQueue(server_.door().queue());
     const auto on_goal = [this](const ros::MessageEvent<geometry_msgs::PoseStamped const>& event) {
@@ -87,7 +90,8 @@ class MoveBaseFront::Server {
   void close() {
     poses_.shutdown();
     server_.close();
-    timer_.stop();
+    look_timer_.stop();
+    status_timer_.stop();
   }
 
  private:
@@ -109,10 +113,7 @@ class MoveBaseFront::Server {
     callbacks_.goal(std::move(arrived));
   }
 
-  void look() {
-    goals_.look();
-    is_even_ = !is_even_;
-    if (is_even_) return;
+  void tellStatus() {
     server_.tick();
     goals_.tick();
     callbacks_.tick();
@@ -123,10 +124,9 @@ class MoveBaseFront::Server {
   const std::string goal_topic_;
   ActionGoals& goals_;
   const Callbacks callbacks_;
-  bool is_even_ = false;  ///< of the timer
   ActionServer server_;
   ros::Subscriber poses_;
-  Periodic timer_;
+  Periodic look_timer_, status_timer_;
 };
 
 MoveBaseFront::MoveBaseFront(ProcessContext& context, const ros::NodeHandle& nh, const std::string& action,
