@@ -43,6 +43,18 @@ Remains::Remains(const Remains& fine, double block) : area(fine.area) {
   for (Spot& spot : spots) spot.at /= spot.area;
 }
 
+Remains Remains::within(const Part& part) const {
+  if (part.empty()) return *this;
+  Remains result;
+  for (const Spot& spot : spots) {
+    const auto contains = [&](const HalfPlane& side) { return side.contains(spot.at); };
+    if (!std::all_of(part.begin(), part.end(), contains)) continue;
+    result.spots.push_back(spot);
+    result.area += spot.area;
+  }
+  return result;
+}
+
 Profile::Profile(const Remains& remains, double heading, double bin)
     : heading_(heading), bin_(bin), ahead_(unitVector(heading)), aside_(-ahead_.y(), ahead_.x()) {
   constexpr double kFar = std::numeric_limits<double>::max();

@@ -8,6 +8,17 @@
 
 namespace external_command {
 
+/// One side of a straight line.
+struct HalfPlane {
+  Point2d inward;  ///< of length 1
+  double least;    ///< of a point in it, along `inward` [m]
+
+  bool contains(const Point2d& point) const { return point.dot(inward) >= least; }
+};
+
+/// What lies in all of them; without any, everything.
+using Part = std::vector<HalfPlane>;
+
 /// What is left to sweep, as points that stand for an area each.
 struct Remains {
   /// @param block  side of the squares that are taken together [m].
@@ -16,12 +27,17 @@ struct Remains {
   /// The same, coarser.
   Remains(const Remains& fine, double block);
 
+  Remains within(const Part& part) const;
+
   struct Spot {
     Point2d at;
     double area;  ///< [m^2]
   };
   std::vector<Spot> spots;
   double area = 0.0;  ///< of all [m^2]
+
+ private:
+  Remains() = default;
 };
 
 /// What is left to sweep, seen along one direction: the area in bins, along it and across.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "draft.h"
@@ -23,6 +24,7 @@ struct Effort {
   std::vector<double> choosy = {1.0};  ///< as worksOf()
   std::size_t finalists = 1;           ///< plans that are settled
   int rounds = 1;                      ///< as settled()
+  bool divides = false;                ///< whether swaths in several directions are tried
 };
 
 double holesOf(const Field& field) {
@@ -33,9 +35,9 @@ double holesOf(const Field& field) {
 
 /// @param size  of the task: the area in squares of a swath's width, and its holes.
 Effort effortFor(double size) {
-  if (size < 1500.0) return {{3.0, 4.0, 6.0, 8.0, 12.0, 20.0}, 1, 3, {1.0, 3.0}, 4, 6};
-  if (size < 3000.0) return {{3.0, 5.0, 8.0, 12.0, 20.0}, 1, 2, {1.0, 4.0}, 2, 4};
-  if (size < 5000.0) return {{3.0, 5.0, 8.0, 12.0, 20.0}, 1, 2, {1.0}, 2, 3};
+  if (size < 1500.0) return {{3.0, 4.0, 6.0, 8.0, 12.0, 20.0}, 1, 3, {1.0, 3.0}, 4, 6, true};
+  if (size < 3000.0) return {{3.0, 5.0, 8.0, 12.0, 20.0}, 1, 2, {1.0, 4.0}, 3, 5, true};
+  if (size < 5000.0) return {{3.0, 5.0, 8.0, 12.0, 20.0}, 1, 2, {1.0}, 2, 4, true};
   return {{4.0}, 0, 1, {1.0}, 1, 1};
 }
 
@@ -93,8 +95,18 @@ class Contest {
         if (!entries_.empty() && field_.timeUsed() > kTimeForTrying) return false;
         improved = enter(planOf(field_, worksOf(field_, draft, price, choosy), price, &routes_)) || improved;
       }
+      improved = tryParts(draft, price) || improved;
     }
     return improved;
+  }
+
+  /// @return whether that is the best so far.
+  bool tryParts(const Draft& draft, double price) {
+    if (!effort_.divides || !isTimeLeft()) return false;
+    const auto [parts, is_new] = parts_.try_emplace(draft.laps);
+    if (is_new) parts->second = partsOf(field_, draft, price);
+    if (parts->second.size() < 2) return false;
+    return enter(planOf(field_, worksOf(field_, draft, price, parts->second), price, &routes_));
   }
 
   /// @return whether that is the best so far.
@@ -115,7 +127,8 @@ class Contest {
   CoverageGrid empty_;
   double goal_;
   Effort effort_;
-  std::vector<Entry> entries_;  ///< the best ones, best first
+  std::map<int, std::vector<Part>> parts_;  ///< by the number of laps: the price hardly matters to them
+  std::vector<Entry> entries_;              ///< the best ones, best first
 };
 
 }  // namespace

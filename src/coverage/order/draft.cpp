@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "coverage/work/laps.h"
+#include "coverage/work/parts.h"
 #include "coverage/work/swaths.h"
 
 namespace external_command {
@@ -97,6 +98,19 @@ std::optional<Draft> draftOfLaps(const Field& field, const CoverageGrid& empty, 
 std::vector<Work> worksOf(const Field& field, Draft draft, double price, double choosy) {
   const SwathPrices prices{price, choosy * turnPrice(field, draft.laps)};
   for (Work& work : planSwaths(field, prices, draft.headings, &draft.grid)) draft.works.push_back(work);
+  return std::move(draft.works);
+}
+
+std::vector<Part> partsOf(const Field& field, const Draft& draft, double price) {
+  return divided(field, {price, turnPrice(field, draft.laps)}, draft.grid);
+}
+
+std::vector<Work> worksOf(const Field& field, Draft draft, double price, const std::vector<Part>& parts) {
+  const SwathPrices prices{price, turnPrice(field, draft.laps)};
+  for (const Part& part : parts) {
+    const auto headings = rankHeadings(field, prices, draft.grid, swathHeadings(field), part);
+    for (Work& work : planSwaths(field, prices, headings, &draft.grid, part)) draft.works.push_back(work);
+  }
   return std::move(draft.works);
 }
 

@@ -33,4 +33,10 @@ std::optional<Draft> draftOfLaps(const Field& field, const CoverageGrid& empty, 
 ///                they leave can be swept in another direction.
 std::vector<Work> worksOf(const Field& field, Draft draft, double price, double choosy);
 
+/// Parts of what the draft's laps leave that are better swept in directions of their own; one where that does not pay.
+std::vector<Part> partsOf(const Field& field, const Draft& draft, double price);
+
+/// The draft's laps, and the swaths of each part.
+std::vector<Work> worksOf(const Field& field, Draft draft, double price, const std::vector<Part>& parts);
+
 }  // namespace external_command

@@ -14,8 +14,9 @@ constexpr double kDifference = 0.1;          ///< of a way's price from the gues
 constexpr double kNear = 8.0;                ///< ends that a turn leads between, not a transfer [turning radii]
 constexpr std::size_t kTurnsTried = 8;       ///< in the guess
 constexpr double kChangesWithoutRoom = 2.0;  ///< of gear, more than the cheapest turn's, where none of them has room
-constexpr double kLoop = 25.0;      ///< longer, at most, than the cheapest turn where none has room [turning radii]
-constexpr double kRoomStep = 0.25;  ///< between places looked at [turning radii]
+constexpr double kLoop = 25.0;        ///< longer, at most, than the cheapest turn where none has room [turning radii]
+constexpr double kMostExcess = 10.0;  ///< of a way over its guess: no way counts as that [turning radii]
+constexpr double kRoomStep = 0.25;    ///< between places looked at [turning radii]
 
 }  // namespace
 
@@ -30,8 +31,8 @@ std::uint64_t Links::idOf(const Step* from, const Step* to) {
 }
 
 Links::Cost Links::costOf(const Step* from, const Step* to) {
-  if (to == nullptr || (from == nullptr && !field_.start())) return {0.0F, 0.0F};
-  const auto [entry, is_new] = known_.try_emplace(idOf(from, to), Cost{0.0F, 0.0F});
+  if (to == nullptr || (from == nullptr && !field_.start())) return {0.0F, 0.0F, false};
+  const auto [entry, is_new] = known_.try_emplace(idOf(from, to), Cost{0.0F, 0.0F, true});
   if (is_new) entry->second = guess(beginOf(from), startOf(*to));
   return entry->second;
 }
@@ -39,7 +40,7 @@ Links::Cost Links::costOf(const Step* from, const Step* to) {
 /// Whatever reverses takes two changes of gear at least, so that a way forward need not be compared with all ways.
 Links::Cost Links::guess(const Pose2d& from, const Pose2d& to) {
   const auto costOf = [](double price, double length) {
-    return Cost{static_cast<float>(price), static_cast<float>(length)};
+    return Cost{static_cast<float>(price), static_cast<float>(length), true};
   };
   const double straight = (to.position() - from.position()).norm();
   const double detour = routes_.distance(from.position(), to.position()) - straight;
@@ -88,10 +89,19 @@ bool Links::settle(const Step* from, const Step* to) {
   const std::optional<Curve> driven = from == nullptr ? std::nullopt : std::optional<Curve>(curveOf(*from));
   std::optional<Curve>& way = entry->second;
   way = Connector(field_).connect(driven ? &*driven : nullptr, beginOf(from), curveOf(*to));
-  const double guessed = price(from, to), length = way ? way->length() : kNoWay;
+  const double guessed = static_cast<double>(costOf(from, to).price), length = way ? way->length() : kNoWay;
   const double found = length + (way ? field_.gearPrice() * way->gearChangesBetween() : 0.0);
-  known_[idOf(from, to)] = {static_cast<float>(found), static_cast<float>(length)};
+  known_[idOf(from, to)] = {static_cast<float>(found), static_cast<float>(length), false};
+  excess_ += std::min(found - guessed, kMostExcess * field_.radius());
+  ++excesses_;
   return std::abs(found - guessed) > kDifference;
+}
+
+void Links::doubtGuesses() {
+  if (excesses_ == 0) return;
+  doubt_ = std::max(0.0, excess_ / static_cast<double>(excesses_));
+  excess_ = 0.0;
+  excesses_ = 0;
 }
 
 std::optional<Curve> Links::way(const Step* from, const Step* to) const {

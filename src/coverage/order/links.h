@@ -33,12 +33,19 @@ class Links {
 
   /// From the end of `from`, or from the vehicle's start without it; 0 if there is no start, or nothing to go to.
   /// The length, and the price of the changes of gear [m].
-  double price(const Step* from, const Step* to) { return static_cast<double>(costOf(from, to).price); }
+  double price(const Step* from, const Step* to) {
+    const Cost cost = costOf(from, to);
+    return static_cast<double>(cost.price) + (cost.is_guess ? doubt_ : 0.0);
+  }
 
   double length(const Step* from, const Step* to) { return static_cast<double>(costOf(from, to).length); }  ///< [m]
 
   /// Works out the way that price() only guesses at. @return whether it differs.
   bool settle(const Step* from, const Step* to);
+
+  /// Makes guesses dearer from now on: by what the ways that were worked out since the last call took more than
+  /// guessed, in the mean. An order that is improved by guesses takes those that are too low.
+  void doubtGuesses();
 
   /// The way that was worked out; nullopt if there is none.
   std::optional<Curve> way(const Step* from, const Step* to) const;
@@ -65,6 +72,7 @@ class Links {
   struct Cost {
     float price;   ///< [m]
     float length;  ///< [m]
+    bool is_guess;
   };
 
   Cost costOf(const Step* from, const Step* to);
@@ -80,6 +88,9 @@ class Links {
 
   std::unordered_map<std::uint64_t, Cost> known_;
   std::unordered_map<std::uint64_t, std::optional<Curve>> ways_;
+  double doubt_ = 0.0;        ///< added to each guess [m]
+  double excess_ = 0.0;       ///< of the ways worked out since doubtGuesses(), over their guesses [m]
+  std::size_t excesses_ = 0;  ///< how many these are
 };
 
 /// The step at a place of a tour; null before the first and after the last.

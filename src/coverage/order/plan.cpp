@@ -21,6 +21,7 @@ constexpr double kTimeForGaps = 0.8;     ///< the same for the gaps
 constexpr double kMoreForGaps = 0.02;    ///< of length, as share
 constexpr int kRounds = 4;               ///< of swaths for what is left
 constexpr double kCheapTurn = 0.3;       ///< price of a turn in their search, in radii: the tour knows the real one
+constexpr double kGapTurn = 3.0;         ///< the same in the search for swaths in a gap: a strip is not swept across
 
 class Planner {
  public:
@@ -45,6 +46,7 @@ class Planner {
     count();
     for (int round = 0; round < rounds && settleLinks(); ++round) {
       if (field_.timeUsed() > kTimeForChanges) break;
+      links_.doubtGuesses();
       improve();
       chooseWays();
       if (round == 1) putIn();
@@ -227,7 +229,7 @@ class Planner {
     for (const auto& [column, row] : part) {
       *(cells + (grid.row(row) - grid.row(0)) + column) &= static_cast<std::uint8_t>(~kSwept);
     }
-    const SwathPrices prices{kDear / field_.width(), kCheapTurn * field_.radius()};
+    const SwathPrices prices{kDear / field_.width(), kGapTurn * field_.radius()};
     const auto headings = rankHeadings(field_, prices, grid, swathHeadings(field_));
     for (const Work& work : planSwaths(field_, prices, headings, &grid)) {
       plan_.works.push_back(work);

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "coverage/field/profile.h"
-#include "stretches.h"
+#include "line_search.h"
 
 namespace external_command {
 
@@ -22,8 +21,8 @@ constexpr std::size_t kFinalists = 2;  ///< headings looked at closely
 
 class SwathSearch {
  public:
-  SwathSearch(const Field& field, const SwathPrices& prices, const CoverageGrid& grid)
-      : field_(field), prices_(prices), grid_(grid), remains_(grid, field.width() / kBins) {}
+  SwathSearch(const Field& field, const SwathPrices& prices, const CoverageGrid& grid, const Part& part)
+      : field_(field), search_(field, prices, grid), remains_(Remains(grid, field.width() / kBins).within(part)) {}
 
   std::vector<SwathHeading> rank(const std::vector<double>& headings) const {
     const double bin = field_.width() / kCoarseBins;
@@ -34,7 +33,7 @@ class SwathSearch {
         field_.poll();
         const Profile profile(coarse, entry.heading, bin);
         for (int offset = 0; offset < offsets; ++offset) {
-          entry.worth = std::max(entry.worth, worthOf(profile, kCoarseBins, offset));
+          entry.worth = std::max(entry.worth, search_.worthOf(profile, kCoarseBins, offset));
         }
       }
       const auto better = [](const SwathHeading& a, const SwathHeading& b) { return a.worth > b.worth; };
@@ -55,7 +54,7 @@ class SwathSearch {
       field_.poll();
       const Profile profile(remains_, headings[i].heading, field_.width() / kBins);
       for (int offset = 0; offset < kBins; ++offset) {
-        const Layout layout{headings[i].heading, offset, worthOf(profile, kBins, offset)};
+        const Layout layout{headings[i].heading, offset, search_.worthOf(profile, kBins, offset)};
         if (layout.worth > best.worth) best = layout;
       }
     }
@@ -71,32 +70,9 @@ class SwathSearch {
     double worth = 0.0;
   };
 
-  /// Searches each line of a layout, and hands it over with its distance across.
-  template <class Visit>
-  void visitLines(const Profile& profile, int bins, int offset, const Visit& visit) const {
-    StretchSearch search(prices_.turn, profile.bin());
-    const double pitch = (field_.width() - field_.params().overlap) / profile.bin();
-    for (double first = -offset; first < profile.rows(); first += pitch) {
-      const int row = static_cast<int>(std::lround(first));
-      const double across = first * profile.bin() + field_.width() / 2.0;
-      if (prices_.unswept * profile.areaOf(row, row + bins) <= prices_.turn) continue;
-      const float *low = profile.below(row), *high = profile.below(row + bins);
-      const double worth = search.best(
-          profile.columns(), [&](int i) { return prices_.unswept * static_cast<double>(high[i] - low[i]); },
-          [&](int i) { return (grid_.at(profile.point((i + 0.5) * profile.bin(), across)) & kOpen) != 0; });
-      visit(across, worth, search);
-    }
-  }
-
-  double worthOf(const Profile& profile, int bins, int offset) const {
-    double sum = 0.0;
-    visitLines(profile, bins, offset, [&](double, double worth, const StretchSearch&) { sum += worth; });
-    return sum;
-  }
-
   std::vector<Work> lay(const Profile& profile, int offset) const {
     std::vector<Work> works;
-    visitLines(profile, kBins, offset, [&](double across, double, const StretchSearch& search) {
+    search_.visitLines(profile, kBins, offset, [&](double across, double, const StretchSearch& search) {
       for (const Stretch& stretch : search.stretches()) addSwath(profile, across, stretch, &works);
     });
     return works;
@@ -118,8 +94,7 @@ class SwathSearch {
   }
 
   const Field& field_;
-  SwathPrices prices_;
-  const CoverageGrid& grid_;
+  LineSearch search_;
   Remains remains_;
 };
 
@@ -146,13 +121,13 @@ std::vector<double> swathHeadings(const Field& field) {
 }
 
 std::vector<SwathHeading> rankHeadings(const Field& field, const SwathPrices& prices, const CoverageGrid& grid,
-                                       const std::vector<double>& headings) {
-  return SwathSearch(field, prices, grid).rank(headings);
+                                       const std::vector<double>& headings, const Part& part) {
+  return SwathSearch(field, prices, grid, part).rank(headings);
 }
 
 std::vector<Work> planSwaths(const Field& field, const SwathPrices& prices, const std::vector<SwathHeading>& headings,
-                             CoverageGrid* grid) {
-  std::vector<Work> works = SwathSearch(field, prices, *grid).plan(headings);
+                             CoverageGrid* grid, const Part& part) {
+  std::vector<Work> works = SwathSearch(field, prices, *grid, part).plan(headings);
   for (const Work& work : works) grid->sweep(work.curveOf(0), field.width());
   return works;
 }

@@ -5,6 +5,7 @@
 
 #include "coverage/field/field.h"
 #include "coverage/field/grid.h"
+#include "coverage/field/profile.h"
 #include "work.h"
 
 namespace external_command {
@@ -24,13 +25,13 @@ struct SwathHeading {
 /// Every direction worth a thought: those of the border's edges, and some all round.
 std::vector<double> swathHeadings(const Field& field);
 
-/// `headings` for what is not swept in `grid`, best first.
+/// `headings` for what is not swept in `grid` and lies in `part`, best first.
 std::vector<SwathHeading> rankHeadings(const Field& field, const SwathPrices& prices, const CoverageGrid& grid,
-                                       const std::vector<double>& headings);
+                                       const std::vector<double>& headings, const Part& part = {});
 
-/// Straight swaths for what is not swept yet, all in one of the first few `headings`, that are the best bargain. Marks
-/// in `grid` what they sweep.
+/// Straight swaths for what is not swept yet in `part`, all in one of the first few `headings`, that are the best
+/// bargain. Marks in `grid` what they sweep.
 std::vector<Work> planSwaths(const Field& field, const SwathPrices& prices, const std::vector<SwathHeading>& headings,
-                             CoverageGrid* grid);
+                             CoverageGrid* grid, const Part& part = {});
 
 }  // namespace external_command
