@@ -14,13 +14,41 @@ TEST(CoveragePlanner, TurnsForwardWhereTheHeadlandHasRoom) {
   EXPECT_TRUE(isDrivable(result.path, area));
 }
 
-TEST(CoveragePlanner, DoesNotReverseToTurnWhereThatIsNotWished) {
+CoverageResult plannedForward(const CoverageArea& area, const Pose2d& start = kStart) {
   CoverageParams wished = params();
   wished.reverse_to_turn = false;
+  return CoveragePlanner(sweeper(), wished).plan(area, start, {}, {});
+}
+
+TEST(CoveragePlanner, DoesNotReverseToTurnWhereThatIsNotWished) {
   const CoverageArea area{box(0, 0, 40, 30), {}};
-  const CoverageResult result = CoveragePlanner(sweeper(), wished).plan(area, kStart, {}, {});
+  const CoverageResult result = plannedForward(area);
   EXPECT_EQ(result.gear_changes, 0u);
-  EXPECT_GT(result.coverage_ratio, 0.85);
+  EXPECT_GT(result.coverage_ratio, 0.95);
+  EXPECT_TRUE(isDrivable(result.path, area));
+}
+
+TEST(CoveragePlanner, ComesNearTheBorderBetweenCornersThatTheNoseSwingsOutIn) {
+  const CoverageResult result = plannedForward({box(0, 0, 60, 40), {}});
+  std::size_t near = 0;
+  for (const ReferencePoint& point : result.path) {
+    near += point.tool_on && box(0, 0, 60, 40).distanceToBorder(point.pose().position()) < 0.51 * params().swath_width;
+  }
+  EXPECT_GT(near * params().spacing, 80.0) << "of a border of 200 m";
+}
+
+TEST(CoveragePlanner, LeavesSharpCornersForwardWhereThatIsWished) {
+  const CoverageArea area{Polygon({{0, 0}, {70, 7}, {25, 56}}, "triangle"), {}};
+  const CoverageResult result = plannedForward(area, {25, 20, 0.0});
+  EXPECT_LE(result.gear_changes, 2u);
+  EXPECT_GT(result.coverage_ratio, 0.8);
+  EXPECT_TRUE(isDrivable(result.path, area));
+}
+
+TEST(CoveragePlanner, SweepsWhatItCanWhereThereIsNoRoomToTurnForward) {
+  const CoverageArea area{box(0, 0, 60, 8), {}};
+  const CoverageResult result = plannedForward(area, {5, 4, 0.0});
+  EXPECT_FALSE(result.swaths.empty());
   EXPECT_TRUE(isDrivable(result.path, area));
 }
 
@@ -37,6 +65,16 @@ TEST(CoveragePlanner, SweepsAThinRingInLaps) {
   EXPECT_LT(result.length, 1.3 * result.reachable_area / params().swath_width);
   EXPECT_LE(result.gear_changes, 10u);
   EXPECT_TRUE(isDrivable(result.path, area));
+}
+
+/// Its width is no multiple of a swath's: strips are left that are narrower.
+TEST(CoveragePlanner, SweepsStripsThatAreLeftAlongNotAcross) {
+  const CoverageArea area{Polygon({{0, 0}, {120, 0}, {120, 48}, {54, 48}, {54, 120}, {0, 120}}, "angle"), {}};
+  const CoverageResult result = planned(area);
+  std::size_t stubs = 0;
+  for (const SwathLine& line : result.lines) stubs += !line.isLap() && line.length() < 2.0 * params().swath_width;
+  EXPECT_LE(stubs, 4u);
+  EXPECT_GT(result.coverage_ratio, 0.99);
 }
 
 TEST(CoveragePlanner, SweepsLargerGapsForAFewMetresMore) {

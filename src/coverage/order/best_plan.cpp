@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "coverage/work/laps.h"
 #include "draft.h"
 #include "plan.h"
 
@@ -22,7 +23,7 @@ struct Effort {
   std::size_t first = 0;               ///< of the prices
   std::size_t drafts = 1;              ///< numbers of laps for each
   std::vector<double> choosy = {1.0};  ///< as worksOf()
-  std::size_t finalists = 1;           ///< plans that are settled
+  long finalists = 1;                  ///< plans that are settled, for each swing
   int rounds = 1;                      ///< as settled()
   bool divides = false;                ///< whether swaths in several directions are tried
 };
@@ -58,7 +59,8 @@ class Contest {
       if (!best.plan.steps.empty() && field_.timeUsed() > kTimeForSettling) break;
       Plan plan = settled(field_, std::move(entry.plan), effort_.rounds, &routes_);
       const double cost = costOf(field_, plan.effort, plan.length, plan.covered, goal_);
-      if (best.plan.steps.empty() || cost < best.cost) best = {std::move(plan), cost};
+      const bool is_better = best.plan.steps.empty() || (!plan.steps.empty() && cost < best.cost);
+      if (is_better) best = {std::move(plan), cost, entry.swing};
     }
     return std::move(best.plan);
   }
@@ -67,6 +69,7 @@ class Contest {
   struct Entry {
     Plan plan;
     double cost = 0.0;
+    double swing = 0.0;  ///< of its laps: whether a way leads to laps near the border only settling shows
   };
 
   /// Dearer area first as long as too much stays unswept; then cheaper area as long as that makes it better.
@@ -80,45 +83,60 @@ class Contest {
   }
 
   bool isTimeLeft() const { return field_.timeUsed() < kTimeForTrying; }
-  double bestShare() const { return entries_.front().plan.covered / goal_; }
+
+  /// The best plan's, for the swing that comes out worse.
+  double bestShare() const {
+    double least = 1.0;
+    for (const double swing : swingsOf(field_)) {
+      const auto isAlike = [&](const Entry& entry) { return entry.swing == swing; };
+      const auto best = std::find_if(entries_.begin(), entries_.end(), isAlike);
+      if (best != entries_.end()) least = std::min(least, best->plan.covered / goal_);
+    }
+    return least;
+  }
+
   bool isShort() const { return bestShare() < field_.params().target_coverage; }
   bool isFarShort() const { return bestShare() < kLowCoverage; }
 
-  /// @return whether that is the best so far.
+  /// @return whether that is the best so far, with its swing.
   bool tryPrice(double share) {
     const double price = share / field_.width();
     bool improved = false;
     std::vector<Draft> drafts = makeDrafts(field_, empty_, price, effort_.drafts);
-    if (auto laps = draftOfLaps(field_, empty_, price)) drafts.insert(drafts.begin(), *std::move(laps));
+    for (Draft& laps : draftsOfLaps(field_, empty_, price)) drafts.insert(drafts.begin(), std::move(laps));
     for (const Draft& draft : drafts) {
       for (const double choosy : effort_.choosy) {
         if (!entries_.empty() && field_.timeUsed() > kTimeForTrying) return false;
-        improved = enter(planOf(field_, worksOf(field_, draft, price, choosy), price, &routes_)) || improved;
+        improved =
+            enter(planOf(field_, worksOf(field_, draft, price, choosy), price, &routes_), draft.swing) || improved;
       }
       improved = tryParts(draft, price) || improved;
     }
     return improved;
   }
 
-  /// @return whether that is the best so far.
+  /// @return whether that is the best so far, with its swing.
   bool tryParts(const Draft& draft, double price) {
     if (!effort_.divides || !isTimeLeft()) return false;
-    const auto [parts, is_new] = parts_.try_emplace(draft.laps);
+    const auto [parts, is_new] = parts_.try_emplace({draft.laps, draft.swing});
     if (is_new) parts->second = partsOf(field_, draft, price);
     if (parts->second.size() < 2) return false;
-    return enter(planOf(field_, worksOf(field_, draft, price, parts->second), price, &routes_));
+    return enter(planOf(field_, worksOf(field_, draft, price, parts->second), price, &routes_), draft.swing);
   }
 
-  /// @return whether that is the best so far.
-  bool enter(Plan plan) {
+  /// @return whether that is the best so far, with its swing.
+  bool enter(Plan plan, double swing) {
     const double cost = costOf(field_, plan.effort, plan.length, plan.covered, goal_);
     const auto better = [&](const Entry& entry) { return entry.cost <= cost; };
-    const auto place = std::find_if_not(entries_.begin(), entries_.end(), better);
-    const bool is_best = place == entries_.begin();
     const auto equal = [&](const Entry& entry) { return std::abs(entry.cost - cost) < kEqual; };
+    const auto alike = [&](const Entry& entry) { return entry.swing == swing; };
+    const auto place = std::find_if_not(entries_.begin(), entries_.end(), better);
+    const bool is_best = std::none_of(entries_.begin(), place, alike);
     if (std::any_of(entries_.begin(), entries_.end(), equal)) return false;
-    entries_.insert(place, {std::move(plan), cost});
-    if (entries_.size() > effort_.finalists) entries_.pop_back();
+    entries_.insert(place, {std::move(plan), cost, swing});
+    if (std::count_if(entries_.begin(), entries_.end(), alike) > effort_.finalists) {
+      entries_.erase(std::find_if(entries_.rbegin(), entries_.rend(), alike).base() - 1);
+    }
     return is_best;
   }
 
@@ -127,8 +145,8 @@ class Contest {
   CoverageGrid empty_;
   double goal_;
   Effort effort_;
-  std::map<int, std::vector<Part>> parts_;  ///< by the number of laps: the price hardly matters to them
-  std::vector<Entry> entries_;              ///< the best ones, best first
+  std::map<std::pair<int, double>, std::vector<Part>> parts_;  ///< by laps and swing: the price hardly matters
+  std::vector<Entry> entries_;                                 ///< the best ones, best first
 };
 
 }  // namespace

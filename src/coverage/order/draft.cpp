@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "coverage/work/laps.h"
 #include "coverage/work/parts.h"
@@ -41,16 +42,15 @@ int lapsForTheNose(const Field& field) {
   return static_cast<int>(std::ceil((field.front() + field.params().margin) / field.width()));
 }
 
-}  // namespace
-
-std::vector<Draft> makeDrafts(const Field& field, const CoverageGrid& empty, double price, std::size_t count) {
+/// With every number of laps.
+std::vector<Draft> draftsFor(const Field& field, const CoverageGrid& empty, double price, double swing) {
   const int wanted = field.params().headland_laps;
   const int nose = lapsForTheNose(field), least = wanted >= 0 ? wanted : std::max(1, nose - 1);
   const double swaths = areaOf(field.goal()) / (field.width() * field.width());
   const int most = wanted >= 0 ? wanted : least + std::clamp(static_cast<int>(kLapsInAll / swaths), 1, 30);
   std::vector<double> headings = swathHeadings(field);
   std::vector<Draft> drafts;
-  Draft draft{0, 0.0, {}, empty, {}};
+  Draft draft{0, swing, 0.0, {}, empty, {}};
   double length = 0.0;
   for (;; ++draft.laps) {
     field.poll();
@@ -65,7 +65,7 @@ std::vector<Draft> makeDrafts(const Field& field, const CoverageGrid& empty, dou
       }
     }
     if (draft.laps == most || (draft.laps > nose && field.timeUsed() > kTimeForLaps)) break;
-    const std::vector<Work> laps = planLap(field, draft.laps, {wanted >= 0 ? wanted : nose}, price, &draft.grid);
+    const std::vector<Work> laps = planLap(field, draft.laps, {wanted >= 0 ? wanted : nose, swing}, price, &draft.grid);
     if (laps.empty()) break;
     for (const Work& lap : laps) {
       const Curve way = lap.curveOf(0);
@@ -77,22 +77,42 @@ std::vector<Draft> makeDrafts(const Field& field, const CoverageGrid& empty, dou
     draft.headings = rankHeadings(field, {price, turnPrice(field, draft.laps)}, draft.grid, headings);
     drafts.push_back(draft);
   }
-  std::stable_sort(drafts.begin(), drafts.end(), [](const Draft& a, const Draft& b) { return a.cost < b.cost; });
-  if (drafts.size() > count) drafts.erase(drafts.begin() + static_cast<long>(count), drafts.end());
   return drafts;
 }
 
-std::optional<Draft> draftOfLaps(const Field& field, const CoverageGrid& empty, double price) {
-  if (field.params().headland_laps >= 0 || meanWidth(field.goal()) > kCorridor * field.width()) return std::nullopt;
-  Draft draft{0, 0.0, {}, empty, {}};
-  for (; draft.laps < kMostLaps; ++draft.laps) {
-    field.poll();
-    const std::vector<Work> laps = planLap(field, draft.laps, {1, true}, price, &draft.grid);
-    if (laps.empty()) break;
-    draft.works.insert(draft.works.end(), laps.begin(), laps.end());
+}  // namespace
+
+std::vector<Draft> makeDrafts(const Field& field, const CoverageGrid& empty, double price, std::size_t count) {
+  std::vector<std::vector<Draft>> bySwing;
+  for (const double swing : swingsOf(field)) {
+    bySwing.push_back(draftsFor(field, empty, price, swing));
+    std::stable_sort(bySwing.back().begin(), bySwing.back().end(),
+                     [](const Draft& a, const Draft& b) { return a.cost < b.cost; });
   }
-  draft.headings = rankHeadings(field, {price, turnPrice(field, draft.laps)}, draft.grid, swathHeadings(field));
-  return draft;
+  std::vector<Draft> drafts;
+  for (std::size_t place = 0; place < count; ++place) {
+    for (std::vector<Draft>& some : bySwing) {
+      if (place < some.size()) drafts.push_back(std::move(some[place]));
+    }
+  }
+  return drafts;
+}
+
+std::vector<Draft> draftsOfLaps(const Field& field, const CoverageGrid& empty, double price) {
+  if (field.params().headland_laps >= 0 || meanWidth(field.goal()) > kCorridor * field.width()) return {};
+  std::vector<Draft> drafts;
+  for (const double swing : swingsOf(field)) {
+    Draft draft{0, swing, 0.0, {}, empty, {}};
+    for (; draft.laps < kMostLaps; ++draft.laps) {
+      field.poll();
+      const std::vector<Work> laps = planLap(field, draft.laps, {1, swing, true}, price, &draft.grid);
+      if (laps.empty()) break;
+      draft.works.insert(draft.works.end(), laps.begin(), laps.end());
+    }
+    draft.headings = rankHeadings(field, {price, turnPrice(field, draft.laps)}, draft.grid, swathHeadings(field));
+    drafts.push_back(std::move(draft));
+  }
+  return drafts;
 }
 
 std::vector<Work> worksOf(const Field& field, Draft draft, double price, double choosy) {

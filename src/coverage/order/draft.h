@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "coverage/field/field.h"
@@ -14,19 +13,20 @@ namespace external_command {
 /// What is to be worked on, in no order yet: so and so many laps, then swaths for the rest.
 struct Draft {
   int laps = 0;
+  double swing = 0.0;                  ///< as LapRule::swing [m]
   double cost = 0.0;                   ///< about the length with turns, less the price of what is swept [m]
   std::vector<Work> works;             ///< the laps
   CoverageGrid grid;                   ///< what they sweep
   std::vector<SwathHeading> headings;  ///< of the swaths, best first
 };
 
-/// Drafts with the numbers of laps that look best, cheapest first, at most `count`.
+/// Drafts with the numbers of laps that look best, cheapest first, at most `count` for each swing, in turn.
 /// @param price  of a square metre that is not swept [m/m^2].
 std::vector<Draft> makeDrafts(const Field& field, const CoverageGrid& empty, double price, std::size_t count);
 
 /// Laps from the border inwards until none fits, and one around each hole: what sweeps rings and corridors with hardly
 /// a turn. None for areas that are wide, or for which a number of laps is given.
-std::optional<Draft> draftOfLaps(const Field& field, const CoverageGrid& empty, double price);
+std::vector<Draft> draftsOfLaps(const Field& field, const CoverageGrid& empty, double price);
 
 /// The draft's laps, and its swaths.
 /// @param choosy  how much dearer than really the turns are taken to be: only long swaths are worth it then, and what

@@ -9,22 +9,30 @@ namespace external_command {
 
 namespace {
 
-constexpr int kPlaces = 8;         ///< tried on each side
-constexpr double kReach = 3.5;     ///< of the search along a side, in turning radii
+constexpr int kPlaces = 8;        ///< tried on each side
+constexpr double kReach = 3.5;    ///< of the search along a side, in turning radii
+constexpr int kSlantPlaces = 14;  ///< the same where it slants
+constexpr double kSlantReach = 8.0;
 constexpr double kDetour = 1.5;    ///< a curve this much longer than its chord is a loop
 constexpr double kOwnPrice = 1.3;  ///< of what another lap or swath can still sweep: its length, and a little more
 constexpr int kSwings = 5;         ///< distances from an edge tried
 /// Where to pass a corner of the border, as share of the way from its tip to where the shortest arc would pass.
 constexpr std::array<double, 4> kWider = {0.25, 0.45, 0.65, 0.85};
+/// The same beyond that arc: room for the nose to swing out.
+constexpr std::array<double, 6> kNarrower = {1.1, 1.25, 1.4, 1.6, 1.8, 2.1};
 
 }  // namespace
 
-CornerSearch::CornerSearch(const Field& field, CoverageGrid* grid, double price)
-    : field_(field), grid_(*grid), price_(price), own_share_(std::min(1.0, kOwnPrice / field.width() / price)) {}
+CornerSearch::CornerSearch(const Field& field, CoverageGrid* grid, double price, bool slants)
+    : field_(field),
+      grid_(*grid),
+      price_(price),
+      slants_(slants),
+      own_share_(std::min(1.0, kOwnPrice / field.width() / price)) {}
 
 std::optional<CornerWay> CornerSearch::find(const Side& before, const Corner& corner, const Side& after) {
   best_.reset();
-  const double reach = kReach * field_.radius();
+  const double reach = (slants_ ? kSlantReach : kReach) * field_.radius();
   const double skipped = std::max(0.0, before.length - reach);
   before_ = {partOf(before.curve, skipped, before.length), before.length - skipped};
   after_.length = std::min(after.length, reach);
@@ -40,8 +48,9 @@ std::optional<CornerWay> CornerSearch::find(const Side& before, const Corner& co
 /// Places on a side, denser towards the corner.
 std::vector<CornerSearch::Place> CornerSearch::places(const Side& side, bool at_end) const {
   std::vector<Place> result;
-  for (int i = 0; i < kPlaces; ++i) {
-    const double share = static_cast<double>(i) / (kPlaces - 1);
+  const int places = slants_ ? kSlantPlaces : kPlaces;
+  for (int i = 0; i < places; ++i) {
+    const double share = static_cast<double>(i) / (places - 1);
     const double away = side.length * share * (0.4 + 0.6 * share);
     const double s = at_end ? side.length - away : away;
     result.push_back({s, poseAt(side.curve, s)});
@@ -73,7 +82,10 @@ std::vector<Pose2d> CornerSearch::apexes(const Corner& corner) const {
   };
   if (corner.turn > 0.0) {
     const double half = std::min(corner.turn / 2.0, 1.2);
-    for (const double share : kWider) add(share * field_.radius() * (1.0 / std::cos(half) - 1.0));
+    const double whole = field_.radius() * (1.0 / std::cos(half) - 1.0);
+    for (const double share : kWider) add(share * whole);
+    if (!slants_) return poses;
+    for (const double share : kNarrower) add(share * whole);
     return poses;
   }
   const double step = 0.05 * field_.radius();

@@ -36,8 +36,10 @@ struct CornerWay {
 /// each of them with or without backing up into the corner.
 class CornerSearch {
  public:
-  /// @param price  of a square metre that is not swept [m/m^2].
-  CornerSearch(const Field& field, CoverageGrid* grid, double price);
+  /// @param price   of a square metre that is not swept [m/m^2].
+  /// @param slants  whether it also looks for ways that turn farther inside, where the nose has room to swing out, and
+  ///                come near the border in a long slant.
+  CornerSearch(const Field& field, CoverageGrid* grid, double price, bool slants);
 
   std::optional<CornerWay> find(const Side& before, const Corner& corner, const Side& after);
 
@@ -59,6 +61,7 @@ class CornerSearch {
   const Field& field_;
   CoverageGrid& grid_;
   double price_;
+  bool slants_;
   double own_share_;
   Side before_;  ///< the end of the first side, as far back as the search goes
   Side after_;   ///< the beginning of the second

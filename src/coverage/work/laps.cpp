@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "access.h"
 #include "corner.h"
 #include "external_command/core/polyline.h"
 #include "ring.h"
@@ -26,8 +27,9 @@ constexpr double kBlocked = -1e-3;  ///< turn of a corner that is none but for s
 /// A lap along one ring.
 class LapBuilder {
  public:
-  LapBuilder(const Field& field, double price, CoverageGrid* grid, const Ring& ring)
-      : field_(field), price_(price), grid_(*grid), ring_(ring) {}
+  /// @param slants  as CornerSearch.
+  LapBuilder(const Field& field, double price, CoverageGrid* grid, const Ring& ring, bool slants)
+      : field_(field), price_(price), grid_(*grid), ring_(ring), slants_(slants) {}
 
   std::vector<Work> build() {
     if (ring_.bends().empty()) {
@@ -116,7 +118,7 @@ class LapBuilder {
   }
 
   void findWays() {
-    CornerSearch search(field_, &grid_, price_);
+    CornerSearch search(field_, &grid_, price_, slants_);
     ways_.resize(sides_.size());
     for (std::size_t i = 0; i < sides_.size(); ++i) {
       field_.poll();
@@ -168,10 +170,11 @@ class LapBuilder {
     std::vector<Work> works;
     for (std::size_t begin = 1, end = 1; end <= n; ++end) {  // sides after the last break, up to the next
       if (ways_[(broken + end) % n]) continue;
-      const Curve way = drive((broken + begin) % n, 0.0, end - begin + 1, false);
+      const Curve way = accessiblePart(field_, drive((broken + begin) % n, 0.0, end - begin + 1, false));
+      begin = end + 1;
+      if (way.arcs.empty()) continue;
       const Curve back = turnedRound(way);
       works.push_back(field_.isFree(back) ? Work({way, back}) : Work(std::vector<Curve>{way}));
-      begin = end + 1;
     }
     return works;
   }
@@ -189,24 +192,24 @@ class LapBuilder {
   double price_;
   CoverageGrid& grid_;
   const Ring& ring_;
+  bool slants_;
   std::vector<Side> sides_;
   std::vector<Corner> corners_;  ///< after each side
   std::vector<std::optional<CornerWay>> ways_;
 };
 
-/// How much farther than half a swath the outermost lap is from the border, so that the nose gets round a corner of it
-/// without backing into it first [m].
-double swingOf(const Field& field) {
-  if (field.params().reverse_to_turn) return 0.0;
-  const double nose = std::hypot(field.radius() + field.vehicle().width / 2.0, field.front()) - field.radius();
-  return std::max(0.0, nose + field.params().margin + kSwingRoom - field.width() / 2.0);
-}
-
 }  // namespace
+
+std::vector<double> swingsOf(const Field& field) {
+  if (field.params().reverse_to_turn) return {0.0};
+  const double nose = std::hypot(field.radius() + field.vehicle().width / 2.0, field.front()) - field.radius();
+  const double swing = nose + field.params().margin + kSwingRoom - field.width() / 2.0;
+  return swing > 0.0 ? std::vector<double>{0.0, swing} : std::vector<double>{0.0};
+}
 
 std::vector<Work> planLap(const Field& field, int number, const LapRule& rule, double price, CoverageGrid* grid) {
   const double pitch = field.width() - field.params().overlap;
-  const double border = field.width() / 2.0 + swingOf(field) + number * pitch;
+  const double border = field.width() / 2.0 + rule.swing + number * pitch;
   const double kept = rule.overlaps ? 0.0 : rule.around_holes * pitch;
   const double most = rule.around_holes > 0 ? field.width() / 2.0 + kept : 0.0;
   const shapes::Shapes lines = inset(field.workable(), border, std::min(border, most), field.checkpoint());
@@ -214,11 +217,12 @@ std::vector<Work> planLap(const Field& field, int number, const LapRule& rule, d
   grid->clear(kInner | kOwn);
   grid->set(inset(field.workable(), inner, std::min(inner, most), field.checkpoint()), kInner);
   if (number > 0) grid->set(inset(field.workable(), border, std::min(border, most), field.checkpoint()), kOwn);
+  const bool slants = !field.params().reverse_to_turn && number == 0 && rule.swing == 0.0;
   std::vector<Work> works;
   const auto add = [&](const shapes::Ring& line, bool is_ring) {
     const Ring ring(pointsOf(line), field.radius());
     if (ring.length() < field.width()) return;
-    for (Work& work : LapBuilder(field, price, grid, ring).build()) {
+    for (Work& work : LapBuilder(field, price, grid, ring, slants).build()) {
       work.lap = number;
       work.is_ring = is_ring;
       grid->sweep(work.curveOf(0), field.width());

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "access.h"
 #include "line_search.h"
 
 namespace external_command {
@@ -87,7 +88,7 @@ class SwathSearch {
     };
     std::vector<Curve> ways;
     for (const Pose2d& pose : {poseAtColumn(from), aboutFace(poseAtColumn(to))}) {
-      const Curve way = field_.freePart({pose, {{to - from, 0.0}}}, profile.bin());
+      const Curve way = accessiblePart(field_, field_.freePart({pose, {{to - from, 0.0}}}, profile.bin()));
       if (way.length() > 0.0) ways.push_back(way);
     }
     if (!ways.empty()) works->emplace_back(ways);
