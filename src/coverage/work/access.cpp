@@ -12,8 +12,8 @@ constexpr double kStep = 0.15;  ///< between places tried [turning radii]
 
 /// @param gear  1 to drive on from the pose, -1 for where the vehicle may have come from.
 bool hasRoom(const Field& field, const Pose2d& pose, double gear) {
-  const double quarter = 0.5 * M_PI * field.radius(), kappa = field.vehicle().maxKappa();
-  return field.isFree(Curve{pose, {{gear * quarter, kappa}}}) || field.isFree(Curve{pose, {{gear * quarter, -kappa}}});
+  const double half = M_PI * field.radius(), kappa = field.vehicle().maxKappa();
+  return field.isFree(Curve{pose, {{gear * half, kappa}}}) || field.isFree(Curve{pose, {{gear * half, -kappa}}});
 }
 
 }  // namespace
