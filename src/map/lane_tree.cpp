@@ -10,7 +10,7 @@ namespace external_command {
 namespace {
 
 constexpr std::size_t kPieceSize = 8;      // [segments]
-constexpr std::size_t kLeastPart = 50000;  // of the pieces, that a thread of its own is worth
+constexpr std::size_t kLeastPart = 10000;  // of the pieces, that a thread of its own is worth
 
 BoundingBox boxOf(const std::vector<Point2d>& points, std::size_t first, std::size_t last) {
   BoundingBox box{points[first], points[first]};

@@ -92,6 +92,18 @@ TEST(LaneSearch, AgreesWithBruteForceOnRandomLanes) {
   }
 }
 
+/// So many that several processors share the making of the tree.
+TEST(LaneSearch, AgreesWithBruteForceOnManyLanes) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> place(0.0, 2000.0), offset(-20.0, 20.0);
+  MapBuilder builder;
+  for (int lane = 0; lane < 40000; ++lane) {
+    const Point2d begin(place(random), place(random));
+    builder.lane("lane_" + std::to_string(lane), begin, begin + Point2d(offset(random), offset(random)));
+  }
+  EXPECT_TRUE(agreesWithBruteForce(*builder.build(), 1, 30));
+}
+
 TEST(LaneSearch, AgreesWithBruteForceOnRealMaps) {
   const auto files = sharedMaps();
   if (files.empty()) GTEST_SKIP() << "no maps in " << EC_SHARED_DIR << "/data/maps";
