@@ -7,6 +7,12 @@
 
 namespace external_command {
 
+void FieldStream::Batch::addTo(ContentDigest* digest) const {
+  for (std::size_t i = 0; i < parts; ++i) {
+    digest->add(first_part + i, bytes.data() + parts_begin + i * ContentDigest::kPartSize);
+  }
+}
+
 bool FieldStream::next(Batch* batch) {
   const std::lock_guard<std::mutex> lock(mutex_);
   batch->index = batches_++;

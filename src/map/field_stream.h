@@ -24,6 +24,9 @@ class FieldStream {
     std::string bytes;         ///< some of the next batch may follow
     std::size_t first_part = 0, parts = 0;  ///< of the file's content, as ContentDigest has them, that end `bytes` ...
     std::size_t parts_begin = 0;            ///< ... from here on
+
+    /// Each part of the file is in one batch.
+    void addTo(ContentDigest* digest) const;
   };
 
   explicit FieldStream(const MapFile& file) : file_(file) {}

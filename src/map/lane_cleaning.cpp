@@ -26,6 +26,12 @@ const Point2d* findImplausible(const std::vector<Point2d>& points) {
   return found == points.end() ? nullptr : &*found;
 }
 
+/// Where a fault of a lane as a whole is told to lie.
+FaultPlace beginOf(const LaneData& lane) {
+  const bool has_place = !lane.center.empty() && isPlausible(lane.center.front());
+  return {has_place ? std::optional<Point2d>(lane.center.front()) : std::nullopt};
+}
+
 bool isUsable(double value) { return std::isfinite(value) && value >= 0.0; }
 
 void cleanBoundary(const LaneData& lane, const char* side, LaneBoundary* boundary, MapFaults* faults) {
@@ -82,11 +88,6 @@ bool clean(const MapParams& params, LaneData* lane, MapFaults* faults) {
 }
 
 }  // namespace
-
-FaultPlace beginOf(const LaneData& lane) {
-  const bool has_place = !lane.center.empty() && isPlausible(lane.center.front());
-  return {has_place ? std::optional<Point2d>(lane.center.front()) : std::nullopt};
-}
 
 bool hasHeights(const LaneData& lane) {
   return std::any_of(lane.heights.begin(), lane.heights.end(), [](float z) { return z != 0.0F; });

@@ -18,9 +18,6 @@ struct LaneShape {
 /// A map without heights states 0 throughout.
 bool hasHeights(const LaneData& lane);
 
-/// Where a fault of a lane as a whole is told to lie.
-FaultPlace beginOf(const LaneData& lane);
-
 /// Takes the centre line out of `lane`, and what is out of range from the rest of it.
 /// @param has_heights  of any lane of the map.
 /// @return  nullopt where the lane cannot be used at all.

@@ -73,9 +73,7 @@ class BinaryParser {
     FieldStream::Batch batch;
     proto::Map field;
     while (bad_at_ == kNoField && stream_.next(&batch)) {
-      for (std::size_t i = 0; i < batch.parts; ++i) {
-        digest_.add(batch.first_part + i, batch.bytes.data() + batch.parts_begin + i * ContentDigest::kPartSize);
-      }
+      batch.addTo(&digest_);
       ProtoConverter converter;
       const std::size_t bad = convert(batch, &field, &converter);
       const std::lock_guard<std::mutex> lock(mutex_);

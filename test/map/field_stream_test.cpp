@@ -38,9 +38,7 @@ std::vector<std::string> fieldsOf(const std::string& bytes, std::size_t threads 
   inParallel(threads, [&](std::size_t) {
     FieldStream::Batch batch;
     while (stream.next(&batch)) {
-      for (std::size_t i = 0; i < batch.parts; ++i) {
-        digest.add(batch.first_part + i, batch.bytes.data() + batch.parts_begin + i * ContentDigest::kPartSize);
-      }
+      batch.addTo(&digest);
       std::vector<std::string>& fields = batches[batch.index];
       for (std::size_t begin = 0; begin < batch.end; begin += fields.back().size()) {
         EXPECT_EQ(bytes.compare(batch.position + begin, 8, batch.bytes, begin, 8), 0);
