@@ -45,16 +45,18 @@ class LaneGraph {
   bool isRoutable(LaneIndex lane) const { return routable_[lane]; }
 
   Span<Link> successors(LaneIndex lane) const {
-    return {successors_.data() + first_successor_[lane], successors_.data() + first_successor_[lane + 1]};
+    return {links_.successors.data() + links_.first_successor[lane],
+            links_.successors.data() + links_.first_successor[lane + 1]};
   }
 
   Span<Neighbour> neighbours(LaneIndex lane) const {
-    return {neighbours_.data() + first_neighbour_[lane], neighbours_.data() + first_neighbour_[lane + 1]};
+    return {links_.neighbours.data() + links_.first_neighbour[lane],
+            links_.neighbours.data() + links_.first_neighbour[lane + 1]};
   }
 
   /// Ranges of `s` on the lane that has this neighbour, rising.
   Span<Interval> crossableParts(const Neighbour& neighbour) const {
-    return {parts_.data() + neighbour.first_part, parts_.data() + neighbour.last_part};
+    return {links_.parts.data() + neighbour.first_part, links_.parts.data() + neighbour.last_part};
   }
 
   /// The least length of a change that begins at `s` on the lane that has this neighbour [m].
@@ -62,22 +64,32 @@ class LaneGraph {
 
   /// Pieces of that lane, by rising `s`, from which on a change takes another length than before.
   Span<ChangeNeed> changeNeeds(const Neighbour& neighbour) const {
-    return {needs_.data() + neighbour.first_need, needs_.data() + neighbour.last_need};
+    return {links_.needs.data() + neighbour.first_need, links_.needs.data() + neighbour.last_need};
   }
 
   /// `b` as a neighbour of `a` on this side; nullptr where it is none.
   const Neighbour* findNeighbour(LaneIndex a, LaneIndex b, LaneChange side) const;
 
  private:
-  void addNeighbour(const HdMap& map, LaneIndex a, LaneIndex b, LaneChange side, double min_turning_radius);
+  /// Of lanes in a row; the positions in the arrays are those of the first link of each.
+  struct Links {
+    /// Adds those of the lanes that follow.
+    void append(const Links& next);
+
+    std::vector<std::uint32_t> first_successor, first_neighbour;
+    std::vector<Link> successors;
+    std::vector<Neighbour> neighbours;
+    std::vector<Interval> parts;
+    std::vector<ChangeNeed> needs;
+  };
+
+  void addLane(const HdMap& map, LaneIndex index, double min_turning_radius, Links* links) const;
+  static void addNeighbour(const HdMap& map, LaneIndex a, LaneIndex b, LaneChange side, double min_turning_radius,
+                           Links* links);
 
   std::vector<double> lengths_;
   std::vector<bool> routable_;
-  std::vector<std::uint32_t> first_successor_, first_neighbour_;
-  std::vector<Link> successors_;
-  std::vector<Neighbour> neighbours_;
-  std::vector<Interval> parts_;
-  std::vector<ChangeNeed> needs_;
+  Links links_;
 };
 
 }  // namespace external_command
