@@ -6,12 +6,12 @@
 set -eu
 sources=/etc/apt/sources.list.d/diagnostic_updater.list
 folder=$(mktemp --directory)
-trap 'rm -rf "$sources" "$folder"' EXIT
+trap 'rm -rf "$sources" "$folder" && apt-get --quiet=2 update' EXIT
 cd "$folder"
 
+apt-get --quiet=2 install --no-install-recommends --yes g++ >/dev/null  # before there are those of another system
 echo "deb [trusted=yes] $1 bookworm main" >"$sources"
 apt-get --quiet=2 update
-apt-get --quiet=2 install --no-install-recommends --yes g++ >/dev/null
 apt-get --quiet=2 --option APT::Sandbox::User=root download libdiagnostic-updater-dev
 dpkg-deb --raw-extract libdiagnostic-updater-dev_*.deb package
 
