@@ -40,6 +40,7 @@ class CaseMaker {
     for (const double distance : {100.0, 560.0}) addPlain(distance);
     addDenseObstacles();
     for (const double slack : {0.3, 0.1, -0.02, -0.4}) addGap(slack);
+    for (const double width : {6.0, 4.2}) addTurn(width);
     return std::move(cases_);
   }
 
@@ -265,6 +266,17 @@ class CaseMaker {
     box(0.0, -30.0, 0.3, -half);
     box(0.0, half, 0.3, 30.0);
     end(-20.0, -20.0, 20.0, 20.0);
+  }
+
+  /// Round and back in a street, in the narrower of which there is no room for that.
+  void addTurn(double width) {
+    begin(text("turn_", width), car(), {-30.0, 0.0, 0.0}, {0.0, 0.0, M_PI});
+    for (const double side : {-1.0, 1.0}) {
+      const double a = 0.5 * side * width, b = a + side * kWall;
+      box(-40.0, std::min(a, b), 40.0, std::max(a, b));
+    }
+    for (const double x : {-40.0, 40.0 - kWall}) box(x, -0.5 * width, x + kWall, 0.5 * width);
+    end(-40.0, -0.5 * width, 40.0, 0.5 * width);
   }
 
   std::mt19937 engine_;

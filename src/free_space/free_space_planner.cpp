@@ -12,6 +12,7 @@
 #include "free_space/improve/anytime_improver.h"
 #include "free_space/ompl/first_path.h"
 #include "free_space/search/narrow_passage.h"
+#include "free_space/search/tight_turn.h"
 #include "last_check.h"
 #include "motion/collision_probe.h"
 #include "steering_ramps.h"
@@ -188,13 +189,23 @@ class Planning {
     const Point2d start = query.start.position(), goal = query.goal.position();
     const auto stop = [this] { return stop_.isReached(); };
     // the search alone is for callers that only want to know whether there is a way
-    if (params_.planner != "portfolio" || !isTooNarrow(index_, areaOf(query), start, goal, stop)) {
-      return "the finest search found none";
+    if (params_.planner != "portfolio") return "the finest search found none";
+    if (!isTooNarrow(index_, areaOf(query), start, goal, stop)) {
+      const auto turn = tightTurn(index_, areaOf(query), query.start, query.goal, stop);
+      return turn ? described(*turn) : "the finest search found none";
     }
     const auto passage = narrowestPassage(index_, areaOf(query), start, goal, stop);
     if (!passage) return "obstacles close every way, or leave less room than the vehicle needs";
     return text("the widest way is only ", metres(passage->width), " wide at ", at(Point2d(passage->at + origin_)),
                 "; the vehicle needs ", metres(vehicle_.width + 2.0 * params_.margin), ", twice the margin included");
+  }
+
+  std::string described(const TightTurn& turn) const {
+    const std::string body = text("no body of ", metres(vehicle_.length()), " by ", metres(vehicle_.width),
+                                  " could, even if it moved sideways and turned on the spot");
+    if (!turn.heading_off) return text("there is too little room for the bends on the way: ", body);
+    return text("there is too little room to turn to that heading on the way: ", body,
+                "; there it would be off by at least ", radians(*turn.heading_off));
   }
 
   std::string whyNone(const std::string& why) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -112,7 +113,10 @@ class FootprintIndex {
   /// Radius of the disc around the rear axle's middle that every free footprint contains, with the margin [m].
   double axleDisc() const;
 
-  /// Distance from the point to the nearest edge, at most `limit`, which must not exceed axleDisc(). Deep inside an
+  /// Radius of the largest discs that fit into every free footprint, with the margin [m].
+  double bodyDisc() const { return std::min(box_.half_width, box_.half_length) + least_margin_; }
+
+  /// Distance from the point to the nearest edge, at most `limit`, which must not exceed bodyDisc(). Deep inside an
   /// obstacle it is negative, at most that depth [m].
   double axleRoom(const Point2d& point, double limit) const;
 

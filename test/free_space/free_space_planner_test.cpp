@@ -201,6 +201,18 @@ TEST(FreeSpacePlanner, FindsNoPathThroughAGateThatIsTooNarrow) {
   EXPECT_NO_THROW(planned(twoYards(0.6), params));
 }
 
+TEST(FreeSpacePlanner, SaysThatThereIsNoRoomToTurn) {
+  const auto turnedIn = [](double width) {
+    Region::Parts parts;
+    parts.drivable = box({0.0, 0.0}, 60.0, width);
+    return planned({smallCar(), {-10, 0, 0}, {10, 0, M_PI}, Region(parts)}, quickParams());
+  };
+  const std::string message = messageOf<NoPath>([&] { turnedIn(3.8); });
+  EXPECT_NE(message.find("too little room to turn to that heading"), std::string::npos) << message;
+  EXPECT_NE(message.find("off by at least"), std::string::npos) << message;
+  EXPECT_NO_THROW(turnedIn(6.0));
+}
+
 TEST(FreeSpacePlanner, FindsNoPathOutOfASlotThatIsTooTight) {
   ParkingWorld world = parallelSlot(0.05);
   const std::string message = messageOf<NoPath>([&] { planned(world, quickParams(0.02)); });

@@ -45,7 +45,8 @@ class FreeSpacePlanner {
   /// @throws InvalidRequest   a pose is not finite, there is no goal, or start and goals lie over 10 km apart.
   /// @throws StartBlocked     the bare footprint collides at the start; the text says with what and by how much.
   /// @throws GoalBlocked      it does at every goal.
-  /// @throws NoPath           the search has shown that there is none at its finest resolution, or used its iterations.
+  /// @throws NoPath           a gap or a bend is too tight for the vehicle, the search has shown that there is no path at
+  ///                          its finest resolution, or it used its iterations; the text says which.
   /// @throws PlanningTimeout  time_budget ran out first.
   /// @throws Cancelled        `cancel` was raised; noticed within a few milliseconds.
   FreeSpacePlan plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region,

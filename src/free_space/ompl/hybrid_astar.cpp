@@ -7,6 +7,7 @@
 
 #include "first_path.h"
 #include "free_space/search/narrow_passage.h"
+#include "free_space/search/tight_turn.h"
 #include "free_space/search/way_pose_search.h"
 #include "ompl_space.h"
 
@@ -42,7 +43,8 @@ ob::PlannerStatus HybridAStar::solve(const ob::PlannerTerminationCondition& stop
   return ob::PlannerStatus::EXACT_SOLUTION;
 }
 
-/// A little of the search itself, which suffices nearly always; then over way poses; then the search to its end.
+/// A little of the search itself, which suffices nearly always; then, unless something is too tight for the
+/// vehicle, over way poses; then the search to its end.
 std::optional<Arcs> HybridAStar::search(const std::function<bool()>& stop) {
   const auto runFor = [&](std::size_t steps) {
     outcome_ = search_.run({}, {steps, std::numeric_limits<double>::infinity(), stop});
@@ -50,7 +52,8 @@ std::optional<Arcs> HybridAStar::search(const std::function<bool()>& stop) {
   };
   if (runFor(std::min(kFirstLookSteps, max_steps_))) return search_.arcs();
   if (outcome_ != TwoWaySearch::Outcome::kOutOfSteps || max_steps_ <= kFirstLookSteps) return std::nullopt;
-  if (isTooNarrow(scene_.index, area_, query_.start.position(), query_.goal.position(), stop)) {
+  if (isTooNarrow(scene_.index, area_, query_.start.position(), query_.goal.position(), stop) ||
+      tightTurn(scene_.index, area_, query_.start, query_.goal, stop)) {
     outcome_ = TwoWaySearch::Outcome::kNone;
     return std::nullopt;
   }
