@@ -119,6 +119,15 @@ std::string temporaryPath(const std::string& path) {
   return path + "." + std::to_string(::getpid()) + "-" + std::to_string(++count) + kTemporary;
 }
 
+void requireRoom(const std::string& path, std::uintmax_t bytes) {
+  const std::error_code no_folder = makeFolder(path);
+  std::error_code failure;
+  const auto space = std::filesystem::space(std::filesystem::path(path).parent_path(), failure);
+  if (no_folder || failure || space.available >= bytes) return;
+  throw InternalError(text(path, " cannot be written: ", space.available >> 20, " MiB are left on its disk, and ",
+                           bytes >> 20, " MiB have to be"));
+}
+
 void removeLeftovers(const std::string& folder, const std::string& prefix, OwnFiles own) {
   std::error_code failure;
   for (std::filesystem::directory_iterator file(folder, failure), end; !failure && file != end;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -60,6 +61,9 @@ void remove(const std::string& path) noexcept;
 
 /// A name beside the file, another one each time, for what is to replace it.
 std::string temporaryPath(const std::string& path);
+
+/// @throws InternalError  the disk of the file has less than `bytes` left; nothing where that is not known.
+void requireRoom(const std::string& path, std::uintmax_t bytes);
 
 /// What is taken for left where it has the number of this process.
 enum class OwnFiles { kLeft, kInUse };

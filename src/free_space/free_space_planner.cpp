@@ -160,17 +160,20 @@ class Planning {
   Solution firstSolution() {
     Solution best;
     std::size_t steps = approaches_.size() > 1 ? kFirstLookSteps : params_.max_iterations;
+    std::vector<const Approach*> open;
+    for (const Approach& approach : approaches_) open.push_back(&approach);
     while (true) {
-      bool all_hopeless = true;
-      for (const Approach& approach : approaches_) {
-        const FirstPath found = findFirstPath(scene_, approach.query, areaOf(approach.query),
+      std::vector<const Approach*> left;
+      for (const Approach* approach : open) {
+        const FirstPath found = findFirstPath(scene_, approach->query, areaOf(approach->query),
                                               {params_.planner, steps, params_.seed}, stop_);
         stop_.cancel().throwIfCancelled();
-        all_hopeless = all_hopeless && found.outcome == TwoWaySearch::Outcome::kNone;
-        if (found.outcome == TwoWaySearch::Outcome::kFound) consider(approach, found.arcs, &best);
+        if (found.outcome != TwoWaySearch::Outcome::kNone) left.push_back(approach);
+        if (found.outcome == TwoWaySearch::Outcome::kFound) consider(*approach, found.arcs, &best);
       }
       if (best.approach != nullptr) return best;
-      if (all_hopeless) throw NoPath(whyNone(whyHopeless()));
+      if (left.empty()) throw NoPath(whyNone(whyHopeless()));
+      open = std::move(left);
       if (stop_.isReached()) {
         throw PlanningTimeout(whyNone(text("none was found within ", seconds(params_.time_budget),
                                            "; give it more time (time_budget), or a smaller margin (margin)")));

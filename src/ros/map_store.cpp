@@ -80,6 +80,9 @@ class LoadedRouter {
       cache_.write(*router_, stop_.token());
       ROS_INFO_STREAM("map " << file_ << ": kept for the next start in " << cache_.path() << ", written in "
                              << secondsSince(begin) << " s");
+      for (const std::string& path : cache_.removeUnused()) {
+        ROS_INFO_STREAM(path << ": removed, since no map was loaded from it for 30 days");
+      }
     } catch (const Cancelled&) {  // whoever ends waits for this thread
     } catch (const std::exception& error) {
       tellNotKept(error);

@@ -27,6 +27,8 @@ class Outdated : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+constexpr const char* kEnding = ".cache";
+
 /// Words of a label, in their order.
 enum Word : std::size_t { kProgram, kParameters, kContent, kWords };
 
@@ -70,7 +72,34 @@ std::string nameOf(const std::string& map_file) {
   std::error_code failure;
   fs::path path = fs::canonical(map_file, failure);
   if (failure) path = fs::absolute(map_file, failure);
-  return path.stem().string() + "-" + hexadecimal(digestOf(path.c_str(), path.string().size())) + ".cache";
+  return path.stem().string() + "-" + hexadecimal(digestOf(path.c_str(), path.string().size())) + kEnding;
+}
+
+/// Never set back: by a clock that stands far behind what is read now would soon be taken for unused.
+void markUsed(const std::string& path) {
+  std::error_code failure;
+  const fs::file_time_type now = fs::file_time_type::clock::now();
+  if (fs::last_write_time(path, failure) < now && !failure) fs::last_write_time(path, now, failure);
+}
+
+bool wasUnused(const fs::directory_entry& file) {
+  std::error_code failure;
+  const fs::file_time_type used = file.last_write_time(failure);
+  return !failure && fs::file_time_type::clock::now() - used > RouterCache::kUnused;
+}
+
+/// Whether RouterCache has written, or begun to write, the file: the folder may hold others.
+bool isKeptRouter(const fs::directory_entry& file) {
+  std::error_code failure;
+  if (!fs::is_regular_file(file.symlink_status(failure))) return false;
+  const std::string name = file.path().filename().string();
+  if (name.find(text(kEnding, ".")) != std::string::npos && file.path().extension() == ".new") return true;
+  if (file.path().extension() != kEnding) return false;
+  try {
+    return BlockReader(file.path().string()).label().size() == kWords;
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 }  // namespace
@@ -93,6 +122,7 @@ RouterCache::Answer RouterCache::read() const {
   if (fs::symlink_status(path_, failure).type() == fs::file_type::not_found) return answer;
   try {
     answer.router = routerOfFile();
+    markUsed(path_);
   } catch (const Outdated& reason) {
     answer.why_not = reason.what();
   } catch (const Error& error) {
@@ -119,6 +149,9 @@ std::shared_ptr<const Router> RouterCache::routerOfFile() const {
 void RouterCache::write(const Router& router, const CancelToken& cancel) const {
   durable_file::removeLeftovers(folder_, name_, durable_file::OwnFiles::kInUse);
   const std::string temporary = durable_file::temporaryPath(path_);
+  std::error_code failure;
+  const std::uintmax_t map_size = fs::file_size(source_.map_file, failure);
+  if (!failure) durable_file::requireRoom(temporary, 2 * map_size);  // about as much as the map is written
   const MapContent& map = router.map().content();
   BlockWriter out(temporary, cancel);
   writeMapContent(map, &out);
@@ -130,6 +163,18 @@ void RouterCache::write(const Router& router, const CancelToken& cancel) const {
     durable_file::remove(temporary);
     throw;
   }
+}
+
+std::vector<std::string> RouterCache::removeUnused() const {
+  std::vector<std::string> removed;
+  std::error_code failure;
+  for (fs::directory_iterator file(folder_, failure), end; !failure && file != end; file.increment(failure)) {
+    const std::string path = file->path().string();
+    if (path == path_ || !wasUnused(*file) || !isKeptRouter(*file)) continue;
+    durable_file::remove(path);
+    removed.push_back(path);
+  }
+  return removed;
 }
 
 }  // namespace external_command

@@ -7,6 +7,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <future>
@@ -288,6 +290,45 @@ TEST_F(RouterCacheTest, RemovesWhatKilledProcessesHaveLeft) {
   EXPECT_FALSE(fs::exists(left));
   EXPECT_TRUE(fs::exists(of_another));
   EXPECT_TRUE(fs::exists(in_use));
+}
+
+TEST_F(RouterCacheTest, RemovesWhatWasNotUsedForLong) {
+  const auto long_ago = fs::file_time_type::clock::now() - RouterCache::kUnused - std::chrono::hours(1);
+  keep();
+  const std::string own = cache().path(), old = cacheFolder() + "/old-0123456789abcdef.cache",
+                    used = cacheFolder() + "/used-0123456789abcdef.cache", begun = old + ".999999999-1.new",
+                    others = cacheFolder() + "/others.cache", notes = cacheFolder() + "/notes.txt";
+  for (const std::string& path : {old, used, begun, notes}) fs::copy_file(own, path);
+  writeBytes(others, "of another program");
+  for (const std::string& path : {own, old, begun, others, notes}) fs::last_write_time(path, long_ago);
+  std::vector<std::string> removed = cache().removeUnused();
+  std::sort(removed.begin(), removed.end());
+  EXPECT_EQ(removed, (std::vector<std::string>{old, begun}));
+  for (const std::string& path : {old, begun}) EXPECT_FALSE(fs::exists(path));
+  for (const std::string& path : {own, used, others, notes}) EXPECT_TRUE(fs::exists(path)) << path;
+}
+
+TEST_F(RouterCacheTest, IsUsedWhenItIsRead) {
+  const auto now = fs::file_time_type::clock::now();
+  keep();
+  fs::last_write_time(cache().path(), now - 2 * RouterCache::kUnused);
+  ASSERT_TRUE(cache().read().router);
+  EXPECT_GT(fs::last_write_time(cache().path()), now - std::chrono::minutes(1));
+  fs::last_write_time(cache().path(), now + std::chrono::hours(1));  // by a clock that was set back since
+  ASSERT_TRUE(cache().read().router);
+  EXPECT_GT(fs::last_write_time(cache().path()), now);
+}
+
+TEST_F(RouterCacheTest, LeavesRoomOnTheDisk) {
+  const auto router = routerOf(source_);
+  fs::resize_file(source_.map_file, std::uintmax_t{1} << 42);  // a hole of 4 TiB, of which no disk has room for two
+  try {
+    cache().write(*router, CancelToken());
+    FAIL() << "written";
+  } catch (const InternalError& error) {
+    EXPECT_NE(std::string(error.what()).find("8388608 MiB have to be"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(filesInCacheFolder(), 0u);
 }
 
 TEST_F(RouterCacheTest, IsWrittenAndReadByManyAtOnce) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "external_command/core/cancel_token.h"
 #include "external_command/map/map_reader.h"
@@ -28,6 +30,8 @@ class RouterCache {
   /// Smaller maps are resolved in no time.
   static constexpr std::uintmax_t kLeastMapSize = 8 << 20;  // [bytes]
 
+  static constexpr std::chrono::hours kUnused{30 * 24};
+
   /// @param folder  is made when the first file is written.
   RouterCache(const std::string& folder, RouterSource source);
 
@@ -48,9 +52,15 @@ class RouterCache {
 
   /// Keeps a router that was made of the map file, in place of what was kept before, and removes what killed processes
   /// have left. The disk has confirmed it on return. Several processes may do so at once: each writes all of it.
-  /// @throws InternalError  it cannot be written; what was kept before is still there.
+  /// @throws InternalError  it cannot be written, or the disk would have less left than the size of the map file; what
+  ///                        was kept before is still there.
   /// @throws Cancelled      it is looked at every few megabytes.
   void write(const Router& router, const CancelToken& cancel) const;
+
+  /// Removes what was kept in the folder of other map files, and was not read or written for kUnused: who gives each
+  /// version of a map another name would fill the disk.
+  /// @return  the paths.
+  std::vector<std::string> removeUnused() const;
 
  private:
   std::shared_ptr<const Router> routerOfFile() const;
