@@ -116,6 +116,14 @@ class ManoeuvresTest(unittest.TestCase):
         wall = [polygon([(-15, 10), (15, 10), (15, 10.2), (-15, 10.2)])]
         self.assert_refused(self.free_space(pose(-3.0, 12.7, 0.0), non_drivable_roi=wall), CommandStatus.NO_PATH)
 
+    def test_free_space_tells_that_there_is_no_room_to_turn(self):
+        self.drive_to_the_middle()
+        for half_width, error_code, words in ((1.7, CommandStatus.NO_PATH, ["too little room to turn"]),
+                                              (4.5, CommandStatus.OK, [])):
+            street = polygon([(-15, -half_width), (15, -half_width), (15, half_width), (-15, half_width)])
+            answer = self.free_space(pose(3.0, 0.0, math.pi), drivable_roi=street, dry_run=True)
+            self.assert_refused(answer, error_code, *words)
+
     def test_free_space_reaches_a_goal_nearer_than_the_margin(self):
         goal = pose(-8.0, 4.0, 0.0)
         for distance, words in ((0.05, "nearer than the margin"), (0.5, None)):

@@ -108,6 +108,17 @@ class MapCacheTest(unittest.TestCase):
             self.assertIn("other parameters", component.output)
         self.assertEqual(len(self.files()), 1)
 
+    def test_what_was_not_used_for_long_is_removed(self):
+        self.first_start()
+        kept = self.files()[0]
+        old, used = (os.path.join(os.path.dirname(kept), name + "-0123456789abcdef.cache") for name in ("old", "used"))
+        for path in (old, used):
+            shutil.copyfile(kept, path)
+        os.utime(old, (0.0, 0.0))
+        with self.started(map_origin="auto") as component:
+            support.wait_until(lambda: old + ": removed" in component.output, "it is told")
+        self.assertEqual(sorted(self.files()), sorted([kept, used]))
+
     def test_nothing_is_kept_where_that_is_said(self):
         with self.started(map_cache_folder="none") as component:
             self.route(component)
