@@ -18,7 +18,8 @@ struct CoverageParams {
   double overlap = 0.0;      ///< of neighbouring swaths, [0, swath_width / 2] [m]
   double margin = 0.03;      ///< the footprint keeps this distance to the border and the holes, [0, 5] [m]
 
-  int headland_laps = -1;               ///< laps along border and holes, [0, 50]; -1: as many as serve the objective
+  int headland_laps = -1;               ///< laps along border and holes, but for those so small that swaths bend round
+                                        ///< them, [0, 50]; -1: as many as serve the objective
   bool headland_first = true;           ///< the laps along the outer border come before the swaths, not after them
   std::optional<double> swath_heading;  ///< of the straight swaths [rad]; not given: chosen for the objective
   CoverageObjective objective = CoverageObjective::kShortest;

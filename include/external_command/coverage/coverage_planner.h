@@ -61,9 +61,9 @@ struct CoverageResult {
 
 /// Plans a path that sweeps an area and keeps the whole footprint inside it. Thread-safe: const, no shared state.
 ///
-/// Laps run along the border and the holes, straight swaths fill what they leave; turns and transfers are Reeds-Shepp
-/// curves, or a search where none of those fits. Length is traded against coverage by a price per square metre left
-/// out.
+/// Laps run along the border and the larger holes, swaths fill what they leave, bent round small holes; turns and
+/// transfers are Reeds-Shepp curves, or a search where none of those fits. Length is traded against coverage by a price
+/// per square metre left out.
 class CoveragePlanner {
  public:
   /// @throws InvalidParameter  a value of `vehicle` or `params` is out of range.

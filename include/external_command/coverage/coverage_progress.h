@@ -13,11 +13,11 @@
 namespace external_command {
 
 /// The line that the rear-axle centre drives on one piece of work: a lap along the border, a ring around a hole, or a
-/// straight swath.
+/// swath, which is straight but where it is bent round a small obstacle.
 struct SwathLine {
   Pose2d start;
   std::vector<ArcSegment> arcs;
-  int lap = -1;  ///< of a lap: 0 is the outermost, or the one next to a hole; -1: a straight swath
+  int lap = -1;  ///< of a lap: 0 is the outermost, or the one next to a hole; -1: a swath
 
   bool isLap() const { return lap >= 0; }
   double length() const;  ///< driven [m]

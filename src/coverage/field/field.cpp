@@ -16,6 +16,7 @@ constexpr double kCheckStep = 0.1;       ///< most that a corner moves between t
 constexpr double kMaxCells = 2.5e6;      ///< of the grid; sets its finest cell
 constexpr double kCellsPerSwath = 12.0;  ///< across
 constexpr double kMaxExtent = 20e3;      ///< of the area [m]
+constexpr double kMostShift = 1.5;       ///< [swath widths]
 constexpr double kUnwanted = 5000.0;     ///< price of a change of gear for a vehicle that is not to reverse [m]
 
 Region regionOf(const CoverageArea& area, const CoverageParams& params, const Point2d& origin,
@@ -66,6 +67,7 @@ Field::Field(const VehicleParams& vehicle, const CoverageParams& params, const C
   if (start) start_ = Pose2d{start->x - origin_.x(), start->y - origin_.y(), start->heading};
   setShapes(area);
   setGoal();
+  setPassable();
   requireFreeStart(area);
 }
 
@@ -84,6 +86,9 @@ double Field::timeUsed() const {
   const std::chrono::duration<double> used = std::chrono::steady_clock::now() - began_;
   return used.count() / params_.time_budget;
 }
+
+/// Beyond that, a swath is better ended: too much is left beside it.
+double Field::mostShift() const { return std::min(kMostShift * width(), radius()); }
 
 void Field::setShapes(const CoverageArea& area) {
   const shapes::Shapes whole = only(shapeOf(region_.drivable()->points()));
@@ -146,6 +151,18 @@ void Field::setGoal() {
   workable_ = partAt(free_, part.front().outer().front());
 }
 
+void Field::setPassable() {
+  const auto isSmall = [&](const shapes::Ring& hole) {
+    const double size = perimeterOf(shapeOf(pointsOf(hole))) / (2.0 * M_PI);
+    return size + width() / 2.0 < radius() && size + vehicle_.width / 2.0 + params_.margin < mostShift();
+  };
+  passable_ = workable_;
+  for (shapes::Shape& shape : passable_) {
+    auto& holes = shape.inners();
+    holes.erase(std::remove_if(holes.begin(), holes.end(), isSmall), holes.end());
+  }
+}
+
 bool Field::isFree(const Curve& curve) const {
   return allFree(curve, reach_, [&](const Pose2d& pose) { return checker_.isFree(pose); });
 }
@@ -174,7 +191,9 @@ CoverageGrid Field::makeGrid() const {
   CoverageGrid grid(box, std::max(width() / kCellsPerSwath, std::sqrt(size.x() * size.y() / kMaxCells)));
   grid.set(free_, kFree);
   grid.set(goal_, kGoal);
-  grid.set(grown(free_, -vehicle_.width / 2.0 - params_.margin, checkpoint()), kOpen);
+  const double half = vehicle_.width / 2.0 + params_.margin;
+  grid.set(grown(free_, -half, checkpoint()), kOpen);
+  grid.set(grown(passable_, -half, checkpoint()), kPassable);
   return grid;
 }
 

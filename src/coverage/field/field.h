@@ -40,11 +40,15 @@ class Field {
   const shapes::Shapes& free() const { return free_; }
   const shapes::Shapes& goal() const { return goal_; }          ///< what the tool can reach from the start
   const shapes::Shapes& workable() const { return workable_; }  ///< the free parts that `goal` lies in
+  /// `workable` without the small holes: those round which a lap would bend more than the vehicle can, and that a swath
+  /// can be bent round by mostShift().
+  const shapes::Shapes& passable() const { return passable_; }
   const Region& region() const { return region_; }
 
   double width() const { return params_.swath_width; }
   double radius() const { return vehicle_.min_turning_radius; }
   double gearPrice() const;                                                      ///< of a change of gear, as length [m]
+  double mostShift() const;                                                      ///< of a swath past a small hole [m]
   double front() const { return vehicle_.wheelbase + vehicle_.front_overhang; }  ///< rear axle to the nose [m]
 
   bool isFree(const Pose2d& pose) const { return checker_.isFree(pose); }
@@ -56,12 +60,13 @@ class Field {
   /// The longest part of a curve on which the vehicle is free, looked at every `step` [m]; empty where it nowhere is.
   Curve freePart(const Curve& curve, double step) const;
 
-  /// A grid with kFree, kGoal and kOpen set.
+  /// A grid with kFree, kGoal, kOpen and kPassable set.
   CoverageGrid makeGrid() const;
 
  private:
   void setShapes(const CoverageArea& area);
   void setGoal();
+  void setPassable();
   void requireFreeStart(const CoverageArea& area);
 
   VehicleParams vehicle_;
@@ -75,6 +80,7 @@ class Field {
   shapes::Shapes free_;
   shapes::Shapes goal_;
   shapes::Shapes workable_;
+  shapes::Shapes passable_;
   Region region_;
   CollisionChecker checker_;
   CollisionChecker bare_checker_;

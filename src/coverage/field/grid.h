@@ -16,13 +16,14 @@ namespace external_command {
 
 /// What is known of a cell, as bits.
 enum CellFlag : std::uint8_t {
-  kFree = 1,    ///< within the area
-  kGoal = 2,    ///< within what the vehicle can reach
-  kSwept = 4,   ///< worked on
-  kOpen = 8,    ///< the vehicle's centre line can be there
-  kOwn = 16,    ///< nominally swept by the lap in hand: what it leaves can still be swept by others
-  kInner = 32,  ///< left to later laps and swaths
-  kMarked = 64  ///< for the moment
+  kFree = 1,       ///< within the area
+  kGoal = 2,       ///< within what the vehicle can reach
+  kSwept = 4,      ///< worked on
+  kOpen = 8,       ///< the vehicle's centre line can be there
+  kOwn = 16,       ///< nominally swept by the lap in hand: what it leaves can still be swept by others
+  kInner = 32,     ///< left to later laps and swaths
+  kMarked = 64,    ///< for the moment
+  kPassable = 128  ///< the vehicle's centre line could be there but for small holes
 };
 
 /// The area as fine cells; a cell is what its centre is. Copyable: each plan that is tried has its own.

@@ -15,6 +15,7 @@ namespace {
 constexpr double kTimeForTrying = 0.4;    ///< share of the budget after which no further plan is tried
 constexpr double kTimeForSettling = 0.7;  ///< the same for settling one
 constexpr double kHole = 60.0;            ///< squares of a swath's width that take as long to plan as a hole
+constexpr double kSmallHole = 20.0;       ///< the same of one that swaths bend round
 constexpr double kEqual = 1e-9;           ///< plans with costs as near as that are the same
 
 /// How much is tried: the less, the longer one plan takes.
@@ -28,13 +29,19 @@ struct Effort {
   bool divides = false;                ///< whether swaths in several directions are tried
 };
 
-double holesOf(const Field& field) {
+double holesIn(const shapes::Shapes& area) {
   std::size_t holes = 0;
-  for (const shapes::Shape& shape : field.workable()) holes += shape.inners().size();
+  for (const shapes::Shape& shape : area) holes += shape.inners().size();
   return static_cast<double>(holes);
 }
 
-/// @param size  of the task: the area in squares of a swath's width, and its holes.
+/// The area in squares of a swath's width, and its holes.
+double sizeOf(const Field& field, double area) {
+  const double large = holesIn(field.passable()), all = holesIn(field.workable());
+  return area / (field.width() * field.width()) + kHole * large + kSmallHole * (all - large);
+}
+
+/// @param size  as sizeOf().
 Effort effortFor(double size) {
   if (size < 1500.0) return {{3.0, 4.0, 6.0, 8.0, 12.0, 20.0}, 1, 3, {1.0, 3.0}, 4, 6, true};
   if (size < 3000.0) return {{3.0, 5.0, 8.0, 12.0, 20.0}, 1, 2, {1.0, 4.0}, 3, 5, true};
@@ -50,7 +57,7 @@ class Contest {
         routes_(field),
         empty_(field.makeGrid()),
         goal_(std::max(empty_.area(kGoal, 0), 1e-9)),
-        effort_(effortFor(goal_ / (field.width() * field.width()) + kHole * holesOf(field))) {}
+        effort_(effortFor(sizeOf(field, goal_))) {}
 
   Plan run() {
     tryPrices();

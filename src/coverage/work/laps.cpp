@@ -212,11 +212,11 @@ std::vector<Work> planLap(const Field& field, int number, const LapRule& rule, d
   const double border = field.width() / 2.0 + rule.swing + number * pitch;
   const double kept = rule.overlaps ? 0.0 : rule.around_holes * pitch;
   const double most = rule.around_holes > 0 ? field.width() / 2.0 + kept : 0.0;
-  const shapes::Shapes lines = inset(field.workable(), border, std::min(border, most), field.checkpoint());
+  const shapes::Shapes lines = inset(field.passable(), border, std::min(border, most), field.checkpoint());
   const double inner = border + field.width() / 2.0;
   grid->clear(kInner | kOwn);
-  grid->set(inset(field.workable(), inner, std::min(inner, most), field.checkpoint()), kInner);
-  if (number > 0) grid->set(inset(field.workable(), border, std::min(border, most), field.checkpoint()), kOwn);
+  grid->set(inset(field.passable(), inner, std::min(inner, most), field.checkpoint()), kInner);
+  if (number > 0) grid->set(inset(field.passable(), border, std::min(border, most), field.checkpoint()), kOwn);
   const bool slants = !field.params().reverse_to_turn && number == 0 && rule.swing == 0.0;
   std::vector<Work> works;
   const auto add = [&](const shapes::Ring& line, bool is_ring) {

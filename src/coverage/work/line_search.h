@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
+#include "bypass.h"
 #include "coverage/field/field.h"
 #include "coverage/field/grid.h"
 #include "coverage/field/profile.h"
@@ -16,7 +20,7 @@ class LineSearch {
  public:
   /// @param grid  tells where the vehicle can be; kept by reference.
   LineSearch(const Field& field, const SwathPrices& prices, const CoverageGrid& grid)
-      : field_(field), prices_(prices), grid_(grid) {}
+      : field_(field), prices_(prices), bypasses_(field, grid) {}
 
   /// Searches each line, and hands it over with its distance across.
   /// @param bins    of the profile across a swath.
@@ -30,9 +34,10 @@ class LineSearch {
       const double across = first * profile.bin() + field_.width() / 2.0;
       if (prices_.unswept * profile.areaOf(row, row + bins) <= prices_.turn) continue;
       const float *low = profile.below(row), *high = profile.below(row + bins);
+      int passed = 0;
       const double worth = search.best(
           profile.columns(), [&](int i) { return prices_.unswept * static_cast<double>(high[i] - low[i]); },
-          [&](int i) { return (grid_.at(profile.point((i + 0.5) * profile.bin(), across)) & kOpen) != 0; });
+          [&](int i, bool begins) { return toll(profile, across, i, begins, &passed); });
       visit(across, worth, search);
     }
   }
@@ -45,9 +50,26 @@ class LineSearch {
   }
 
  private:
+  /// Of what blocks the line at a column, all of it at the first one: what it takes to pass, less what it would take
+  /// more than another beginning to end before it and go on behind it, where there is no headland to turn on.
+  /// @param passed  one past the last column that was paid for.
+  double toll(const Profile& profile, double across, int column, bool begins, int* passed) const {
+    constexpr double kNoWay = std::numeric_limits<double>::infinity();
+    if (bypasses_.isOpen(profile, across, column)) return 0.0;
+    if (begins) return kNoWay;
+    if (column < *passed) return 0.0;
+    const std::optional<Bypass> bypass = bypasses_.find(profile, across, column);
+    if (!bypass) return kNoWay;
+    *passed = bypass->end;
+    const VehicleParams& vehicle = field_.vehicle();
+    const double beyond_blocked = vehicle.wheelbase + vehicle.front_overhang + vehicle.rear_overhang - vehicle.width;
+    const double more_left = bypass->left - beyond_blocked * field_.width();
+    return std::max(0.0, bypass->more + prices_.unswept * std::max(0.0, more_left) - 2.0 * field_.gearPrice());
+  }
+
   const Field& field_;
   SwathPrices prices_;
-  const CoverageGrid& grid_;
+  BypassSearch bypasses_;
 };
 
 }  // namespace external_command

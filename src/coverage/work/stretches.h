@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 namespace external_command {
@@ -19,24 +20,29 @@ class StretchSearch {
   /// @param column     price of driving through a column.
   StretchSearch(double beginning, double column) : beginning_(beginning), column_(column) {}
 
-  /// @param worth      of a column, not negative.
-  /// @param can_drive  whether the vehicle can be in a column; asked only where it matters.
+  /// @param worth  of a column, not negative.
+  /// @param toll   of being in a column, besides its price, with the tool on since the column before or, if the second
+  ///               argument says so, from this one on; infinite where the vehicle cannot be. Asked only where it
+  ///               matters, column after column.
   /// @return the best sum.
-  template <class Worth, class CanDrive>
-  double best(int columns, const Worth& worth, const CanDrive& can_drive) {
+  template <class Worth, class Toll>
+  double best(int columns, const Worth& worth, const Toll& toll) {
     double on = kNever, off = 0.0;
     changes_.clear();
     for (int i = 0; i < columns; ++i) {
       const double gain = worth(i);
-      const bool begins = gain > 0.0 && off - beginning_ > on;
-      const double on_before = begins ? off - beginning_ : on;
+      const double begun = gain > 0.0 && off - beginning_ > on ? off - beginning_ + gain - column_ : kNever;
+      const double kept = isOn(on) ? std::max(kNever, on + gain - column_ - toll(i, false)) : kNever;
       if (on > off) {
         off = on;
         changes_.push_back({i, Change::kEnd});
       }
-      on = on_before <= kNever / 2.0 ? kNever : on_before + gain - column_;
-      if (on > kNever / 2.0 && (on < off - beginning_ || !can_drive(i))) on = kNever;
-      if (begins && on > kNever / 2.0) changes_.push_back({i, Change::kBegin});
+      on = kept;
+      if (begun <= kept) continue;
+      const double paid = begun - toll(i, true);
+      if (paid <= kept) continue;
+      on = paid;
+      changes_.push_back({i, Change::kBegin});
     }
     if (on > off) {
       off = on;
@@ -61,6 +67,8 @@ class StretchSearch {
 
  private:
   static constexpr double kNever = -1e12;
+
+  static bool isOn(double sum) { return sum > kNever / 2.0; }
 
   struct Change {
     enum Kind { kBegin, kEnd };

@@ -6,6 +6,8 @@
 #include <optional>
 
 #include "access.h"
+#include "bypass.h"
+#include "evasion.h"
 #include "line_search.h"
 
 namespace external_command {
@@ -23,7 +25,10 @@ constexpr std::size_t kFinalists = 2;  ///< headings looked at closely
 class SwathSearch {
  public:
   SwathSearch(const Field& field, const SwathPrices& prices, const CoverageGrid& grid, const Part& part)
-      : field_(field), search_(field, prices, grid), remains_(Remains(grid, field.width() / kBins).within(part)) {}
+      : field_(field),
+        bypasses_(field, grid),
+        search_(field, prices, grid),
+        remains_(Remains(grid, field.width() / kBins).within(part)) {}
 
   std::vector<SwathHeading> rank(const std::vector<double>& headings) const {
     const double bin = field_.width() / kCoarseBins;
@@ -86,6 +91,12 @@ class SwathSearch {
       const Point2d at = profile.point(along, across);
       return Pose2d{at.x(), at.y(), profile.heading()};
     };
+    if (!isOpen(profile, across, stretch)) {
+      for (Work& work : evadingSwaths(field_, poseAtColumn(from), to - from, profile.bin())) {
+        works->push_back(std::move(work));
+      }
+      return;
+    }
     std::vector<Curve> ways;
     for (const Pose2d& pose : {poseAtColumn(from), aboutFace(poseAtColumn(to))}) {
       const Curve way = accessiblePart(field_, field_.freePart({pose, {{to - from, 0.0}}}, profile.bin()));
@@ -94,7 +105,14 @@ class SwathSearch {
     if (!ways.empty()) works->emplace_back(ways);
   }
 
+  bool isOpen(const Profile& profile, double across, const Stretch& stretch) const {
+    int column = stretch.begin;
+    while (column < stretch.end && bypasses_.isOpen(profile, across, column)) ++column;
+    return column == stretch.end;
+  }
+
   const Field& field_;
+  BypassSearch bypasses_;
   LineSearch search_;
   Remains remains_;
 };

@@ -29,8 +29,8 @@ std::vector<double> swathHeadings(const Field& field);
 std::vector<SwathHeading> rankHeadings(const Field& field, const SwathPrices& prices, const CoverageGrid& grid,
                                        const std::vector<double>& headings, const Part& part = {});
 
-/// Straight swaths for what is not swept yet in `part`, all in one of the first few `headings`, that are the best
-/// bargain. Marks in `grid` what they sweep.
+/// Swaths for what is not swept yet in `part`, all in one of the first few `headings`, that are the best bargain:
+/// straight, but for small obstacles that they are bent round. Marks in `grid` what they sweep.
 std::vector<Work> planSwaths(const Field& field, const SwathPrices& prices, const std::vector<SwathHeading>& headings,
                              CoverageGrid* grid, const Part& part = {});
 
