@@ -102,5 +102,21 @@ TEST(CoveragePillars, LetABentSwathBeResumedBesideThem) {
   EXPECT_TRUE(isDrivable(rest.path, hall()));
 }
 
+Polygon disc(const Point2d& centre, double radius) {
+  std::vector<Point2d> points;
+  for (int i = 0; i < 64; ++i) points.push_back(centre + radius * unitVector(i * M_PI / 32.0));
+  return Polygon(points, "disc");
+}
+
+TEST(CoveragePillars, LeaveRoomForALapOfARoundField) {
+  const CoverageArea lawn{disc({0, 0}, 25.0), {disc({0.0, -23.5}, 0.3)}};
+  const CoverageResult result = CoveragePlanner(sweeper(), params()).plan(lawn, Pose2d{0.0, 0.0, 0.0}, {}, {});
+  const auto isLong = [](const SwathLine& line) { return line.isLap() && line.length() > 120.0; };
+  EXPECT_TRUE(std::any_of(result.lines.begin(), result.lines.end(), isLong));
+  EXPECT_LE(result.turns, 25u);
+  EXPECT_GT(result.coverage_ratio, 0.98);
+  EXPECT_TRUE(isDrivable(result.path, lawn));
+}
+
 }  // namespace
 }  // namespace external_command

@@ -54,8 +54,7 @@ class LapBuilder {
   }
 
   std::optional<Work> roundLap(double ahead) const {
-    const Polyline line(ring_.part(0.0, 1.2 * ring_.length()));
-    const Curve curve = followRound(line, ring_.length(), maxKappa(), ahead);
+    const Curve curve = curveRound(ahead);
     std::optional<Work> work;
     for (const Curve& way : {curve, turnedRound(curve)}) {
       if (!field_.isFree(way)) continue;
@@ -72,6 +71,7 @@ class LapBuilder {
   /// between them counts as one with it.
   void findSides() {
     const auto& bends = ring_.bends();
+    if (bends.empty()) findSidesRound();
     double turn_before_all = 0.0;
     for (std::size_t i = 0; i < bends.size(); ++i) {
       const bool last = i + 1 == bends.size();
@@ -89,6 +89,27 @@ class LapBuilder {
     if (!corners_.empty()) corners_.back().turn += turn_before_all;
   }
 
+  /// Of a ring that bends gently everywhere, but with something in the way: cut at the fewest places.
+  void findSidesRound() {
+    std::vector<Side> sides;
+    std::vector<Corner> corners;
+    for (const double ahead : kAhead) {
+      sides_.clear();
+      corners_.clear();
+      addSides(curveRound(ahead));
+      if (sides_.empty() || (!sides.empty() && sides.size() <= sides_.size())) continue;
+      sides = sides_;
+      corners = corners_;
+      corners.push_back({ring_.poseAt(0.0), kBlocked});
+    }
+    sides_ = std::move(sides);
+    corners_ = std::move(corners);
+  }
+
+  Curve curveRound(double ahead) const {
+    return followRound(Polyline(ring_.part(0.0, 1.2 * ring_.length())), ring_.length(), maxKappa(), ahead);
+  }
+
   /// The side between two bends, prolonged into the corners.
   Polyline lineOf(const Ring::Bend& bend, const Ring::Bend& next, double from, double to) const {
     std::vector<Point2d> points = ring_.part(from, to);
@@ -99,9 +120,10 @@ class LapBuilder {
     return Polyline(std::move(points));
   }
 
-  /// The free parts of `line`. What blocks it between two of them is passed like an edge of the border.
-  void addSides(const Polyline& line) {
-    const Curve whole = follow(line, 0.0, line.length(), maxKappa());
+  void addSides(const Polyline& line) { addSides(follow(line, 0.0, line.length(), maxKappa())); }
+
+  /// The free parts of `whole`. What blocks it between two of them is passed like an edge of the border.
+  void addSides(const Curve& whole) {
     const double length = whole.length();
     const int n = std::max(1, static_cast<int>(std::ceil(length / kPoseStep)));
     int begin = -1;
