@@ -24,10 +24,7 @@ using XmlRpc::XmlRpcValue;
 
 constexpr std::chrono::seconds kPeriod(1);
 
-int pidOf(const XmlRpcPeer& master) {
-  const XmlRpcPeer::Answer pid = master.call("getPid");
-  return pid.value.getType() == XmlRpcValue::TypeInt ? static_cast<const int&>(pid.value) : 0;
-}
+int pidOf(const XmlRpcPeer& master) { return numberOf(master.call("getPid").value, 0); }
 
 std::size_t countOf(XmlRpcValue value) {
   if (value.getType() != XmlRpcValue::TypeStruct) return 1;
@@ -39,8 +36,7 @@ std::size_t countOf(XmlRpcValue value) {
 /// Sets what of `value` the master does not have. @return how many parameters. @throws std::runtime_error
 std::size_t setMissing(const XmlRpcPeer& master, const std::string& name, XmlRpcValue value) {
   const XmlRpcPeer::Answer has = master.call("hasParam", {name});
-  const bool is_there =
-      has.isSuccess() && has.value.getType() == XmlRpcValue::TypeBoolean && static_cast<const bool&>(has.value);
+  const bool is_there = has.isSuccess() && truthOf(has.value, false);
   if (!has.isSuccess() || (!is_there && !master.call("setParam", {name, value}).isSuccess())) {
     throw std::runtime_error(text("parameter ", name, " could not be set"));
   }

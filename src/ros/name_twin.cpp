@@ -44,8 +44,7 @@ std::string describeNameTwin() {
   if (pid.outcome == XmlRpcPeer::Outcome::kUnreachable) return "";
   if (pid.outcome == XmlRpcPeer::Outcome::kSilent) return text("at ", uri, ", which does not answer; is it suspended?");
   if (!isWhoTheMasterMeans(node, master)) return "";
-  return text("process ", pid.value.getType() == XmlRpcValue::TypeInt ? static_cast<const int&>(pid.value) : 0, " on ",
-              node.host());
+  return text("process ", numberOf(pid.value, 0), " on ", node.host());
 }
 
 }  // namespace external_command

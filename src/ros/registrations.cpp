@@ -67,7 +67,7 @@ std::map<std::string, std::set<std::string>> connectedPublishers() {
   // [id, uri, "i" or "o", transport, topic, is connected, ...]
   forEachItem(answer.value, [&](const XmlRpcValue& link) {
     if (link.getType() != XmlRpcValue::TypeArray || link.size() < 6 || textOf(link[2]) != "i") return;
-    if (link[5].getType() == XmlRpcValue::TypeBoolean && !static_cast<const bool&>(link[5])) return;
+    if (!truthOf(link[5], true)) return;
     publishers[textOf(link[4])].insert(textOf(link[1]));
   });
   return publishers;

@@ -29,6 +29,12 @@ class Client : public XmlRpc::XmlRpcClient {
   }
 };
 
+/// A copy of it, since in roscpp of Ubuntu 20.04 its conversions are not const.
+template <class T>
+T valueOr(XmlRpcValue value, XmlRpcValue::Type type, const T& otherwise) {
+  return value.getType() == type ? static_cast<T&>(value) : otherwise;
+}
+
 }  // namespace
 
 XmlRpcPeer::XmlRpcPeer(const std::string& uri, double timeout) : timeout_(timeout) {
@@ -64,10 +70,10 @@ XmlRpcPeer::Answer XmlRpcPeer::call(const std::string& method, std::initializer_
 
 XmlRpcPeer rosMaster() { return XmlRpcPeer(ros::master::getURI()); }
 
-std::string textOf(const XmlRpcValue& value) {
-  if (value.getType() != XmlRpcValue::TypeString) return "";
-  XmlRpcValue copy = value;  // its conversions are not const
-  return static_cast<std::string>(copy);
-}
+std::string textOf(const XmlRpcValue& value) { return valueOr(value, XmlRpcValue::TypeString, std::string()); }
+
+int numberOf(const XmlRpcValue& value, int otherwise) { return valueOr(value, XmlRpcValue::TypeInt, otherwise); }
+
+bool truthOf(const XmlRpcValue& value, bool otherwise) { return valueOr(value, XmlRpcValue::TypeBoolean, otherwise); }
 
 }  // namespace external_command

@@ -53,4 +53,8 @@ void forEachItem(const XmlRpc::XmlRpcValue& list, const Visit& visit) {
 /// The text, or "" where it is none.
 std::string textOf(const XmlRpc::XmlRpcValue& value);
 
+/// The number or truth value, or `otherwise` where it is none.
+int numberOf(const XmlRpc::XmlRpcValue& value, int otherwise);
+bool truthOf(const XmlRpc::XmlRpcValue& value, bool otherwise);
+
 }  // namespace external_command
