@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "cell_grid.h"
@@ -17,8 +18,8 @@ constexpr double kCellSize = 0.05;  ///< [m]
 constexpr double kMaxCells = 200'000;
 constexpr std::size_t kHeadings = 128;
 constexpr double kHeadingCell = 2.0 * M_PI / kHeadings;
-constexpr double kCornerShare = 0.4;          ///< of the largest discs, those in the corners
-constexpr std::size_t kStatesPerLook = 4096;  ///< at the clock
+constexpr double kCornerShare = 0.4;         ///< of the largest discs, those in the corners
+constexpr std::size_t kStatesPerLook = 512;  ///< at the clock
 
 /// A disc inside the footprint, with the margin.
 struct Disc {
@@ -49,26 +50,22 @@ std::vector<Disc> discsOf(const FootprintIndex& index) {
 class PoseGrid {
  public:
   PoseGrid(const FootprintIndex& index, const BoundingBox& area)
-      : area_(area),
+      : index_(index),
+        area_(area),
         reach_(Point2d::Constant(index.box().circumradius() + std::abs(index.box().centre))),
         cells_(area.min - reach_, area.max + reach_, kCellSize, kMaxCells) {
     // In a cell the axle is off its middle by half a diagonal, and so is the disc off the middle of its own cell.
     const double off_middle = std::sqrt(2.0) * cells_.cellSize();
-    double most = 0.0;
     for (Disc disc : discsOf(index)) {
       disc.radius -= off_middle + 0.5 * kHeadingCell * disc.middle.norm();
       if (disc.radius > 0.0) discs_.push_back(disc);
-      most = std::max(most, disc.radius);
+      most_ = std::max(most_, disc.radius);
     }
-    if (discs_.empty()) return;
-    rooms_.reserve(static_cast<std::size_t>(cells_.count()));
-    for (long cell = 0; cell < cells_.count(); ++cell) {
-      rooms_.push_back(index.axleRoom(cells_.centreOf(cell), most));
-    }
+    rooms_.assign(static_cast<std::size_t>(cells_.count()), kNotMeasured);
   }
 
   /// False where the cells are too large to prove anything.
-  bool isFineEnough() const { return !rooms_.empty(); }
+  bool isFineEnough() const { return !discs_.empty(); }
 
   long cellAt(const Point2d& point) const { return cells_.at(point); }
 
@@ -135,14 +132,20 @@ class PoseGrid {
     return ((middle - area_.min).array() >= -half).all() && ((area_.max - middle).array() >= -half).all();
   }
 
-  bool mayBeFree(std::size_t state) const {
+  bool mayBeFree(std::size_t state) {
     const Point2d middle = middleOf(state), along = directions()[state % kHeadings];
     if (!mayHoldAxle(middle)) return false;
     return std::all_of(discs_.begin(), discs_.end(), [&](const Disc& disc) {
       const Point2d across(-along.y(), along.x());
       const long at = cells_.at(middle + disc.middle.x() * along + disc.middle.y() * across);
-      return at < 0 || rooms_[static_cast<std::size_t>(at)] >= disc.radius;
+      return at < 0 || roomOf(at) >= disc.radius;
     });
+  }
+
+  double roomOf(long cell) {
+    double& room = rooms_[static_cast<std::size_t>(cell)];
+    if (room == kNotMeasured) room = index_.axleRoom(cells_.centreOf(cell), most_);
+    return room;
   }
 
   static const std::array<Point2d, kHeadings>& directions() {
@@ -154,11 +157,15 @@ class PoseGrid {
     return all;
   }
 
+  static constexpr double kNotMeasured = -std::numeric_limits<double>::infinity();
+
+  const FootprintIndex& index_;
   const BoundingBox area_;  ///< of the axle
   const Point2d reach_;     ///< of the vehicle beyond it [m]
   CellGrid cells_;
   std::vector<Disc> discs_;    ///< as large as is free around the middles of their cells, where a pose of a state is
-  std::vector<double> rooms_;  ///< of each cell [m]
+  double most_ = 0.0;          ///< of their radii [m]
+  std::vector<double> rooms_;  ///< around the middle of each cell, as far as it matters [m]
   std::vector<bool> is_seen_;
 };
 
