@@ -7,16 +7,21 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <algorithm>
+
 namespace external_command {
 
 namespace {
 
-constexpr int kBackgroundNiceness = 10;
+constexpr int kMoreNiceness = 10;  // than that of the process: it may have been started with another than 0
+constexpr int kMostNiceness = 19;
 
 }  // namespace
 
 void lowerThreadPriority() {
-  setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kBackgroundNiceness);
+  const int normal = getpriority(PRIO_PROCESS, static_cast<id_t>(getpid()));
+  const int lowered = std::min(normal + kMoreNiceness, kMostNiceness);
+  setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), lowered);
 }
 
 void raiseThreadPriority() {

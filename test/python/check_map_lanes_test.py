@@ -70,7 +70,8 @@ class LaneTest(MapCheckTest):
             def change(town):
                 points = town.center("main_0_f1")
                 last = points[-1]
-                points.insert(len(points) - 1, points[0].__class__(x=last.x + metres, y=last.y))
+                points.add(x=last.x, y=last.y)
+                last.x += metres
             return change
         self.assert_finds("fold", step(3.0), "main_0_f1", what="by 3.00 m")
         self.assert_passes("fold", step(-3.0))
