@@ -27,10 +27,6 @@ struct Slalom {
   std::vector<Bay> bays;
 };
 
-double lengthOf(const VehicleParams& vehicle) {
-  return vehicle.rear_overhang + vehicle.wheelbase + vehicle.front_overhang;
-}
-
 /// Drives along one, from bay to bay.
 class SlalomDriver {
  public:
@@ -77,7 +73,7 @@ Curve curveAlong(const Field& field, const Slalom& slalom) { return SlalomDriver
 
 /// The bay with the vehicle aside for so short a time as it gets past.
 Bay tightened(const Field& field, const Pose2d& start, Bay bay) {
-  const double room = kApart * SideStep(bay.shift, field.radius()).along, length = lengthOf(field.vehicle());
+  const double room = kApart * SideStep(bay.shift, field.radius()).along, length = field.vehicle().length();
   const auto isFree = [&](const Bay& some) {
     return some.from <= some.to && field.isFree(curveAlong(field, {start, some.from - room, some.to + room, {some}}));
   };

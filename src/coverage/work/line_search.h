@@ -61,8 +61,7 @@ class LineSearch {
     const std::optional<Bypass> bypass = bypasses_.find(profile, across, column);
     if (!bypass) return kNoWay;
     *passed = bypass->end;
-    const VehicleParams& vehicle = field_.vehicle();
-    const double beyond_blocked = vehicle.wheelbase + vehicle.front_overhang + vehicle.rear_overhang - vehicle.width;
+    const double beyond_blocked = field_.vehicle().length() - field_.vehicle().width;
     const double more_left = bypass->left - beyond_blocked * field_.width();
     return std::max(0.0, bypass->more + prices_.unswept * std::max(0.0, more_left) - 2.0 * field_.gearPrice());
   }
