@@ -20,16 +20,17 @@ void SpeedCommandProcessor::start() {
 
 void SpeedCommandProcessor::check(const SpeedCommand& command) const {
   requireFresh(command.header.stamp, max_request_age_);
+  // the field that the kind leaves unused is sent, too
+  requireNotNegative(command.target_speed, "target_speed");
+  requireWithin(command.target_speed_factor, 0.0, 1.0, "target_speed_factor");
   switch (command.kind) {
     case SpeedCommand::TARGET_SPEED:
-      requireNotNegative(command.target_speed, "target_speed");
       context().params().limits.requireSpeed(command.target_speed);
       if (command.target_speed > 0.0) return;
       throw InvalidRequest(
           "target_speed is 0, which means not given; it must be above 0 (to halt: target_speed_factor 0, or the action "
           "STOP)");
     case SpeedCommand::TARGET_SPEED_FACTOR:
-      return requireWithin(command.target_speed_factor, 0.0, 1.0, "target_speed_factor");
     case SpeedCommand::RESTORE_TARGET_SPEED:
       return;
     default:
@@ -38,7 +39,7 @@ void SpeedCommandProcessor::check(const SpeedCommand& command) const {
   }
 }
 
-CommandStatus SpeedCommandProcessor::execute(const SpeedCommand& command, const AdmittedCommand& /*admitted*/,
+CommandStatus SpeedCommandProcessor::execute(const SpeedCommand& command, const AdmittedCommand& admitted,
                                              Response* /*response*/) {
   const double limit = context().params().vehicle.max_speed;
   SpeedCommand sent = command;
@@ -48,7 +49,9 @@ CommandStatus SpeedCommandProcessor::execute(const SpeedCommand& command, const 
     message = text("sent; target_speed ", command.target_speed, " m/s is above the vehicle's ", limit,
                    " m/s (~vehicle/max_speed) and was lowered to that");
   }
-  for (const ros::Publisher& publisher : publishers_) publisher.publish(sent);
+  context().gate().sendUnlessStopped(admitted, [&] {
+    for (const ros::Publisher& publisher : publishers_) publisher.publish(sent);
+  });
   context().motionWatch().noteSpeed(sent);
   return makeStatus(command.command_id, CommandStatus::FINISHED, ErrorCode::kOk, message);
 }

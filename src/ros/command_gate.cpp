@@ -34,10 +34,19 @@ void CommandGate::requireNewest(const AdmittedCommand& command) const {
   requireNewestLocked(command);
 }
 
+void CommandGate::sendUnlessStopped(const AdmittedCommand& command, const std::function<void()>& publish) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  requireNotStoppedLocked(command);
+  publish();
+}
+
+void CommandGate::requireNotStoppedLocked(const AdmittedCommand& command) const {
+  if (command.arrival > stopped_) return;
+  throw Cancelled(text("command ", command.id, " arrived before a stop; nothing of it was sent"));
+}
+
 void CommandGate::requireNewestLocked(const AdmittedCommand& command) const {
-  if (command.arrival <= stopped_) {
-    throw Cancelled(text("command ", command.id, " arrived before a stop; nothing of it was sent"));
-  }
+  requireNotStoppedLocked(command);
   if (command.arrival < newest_.arrival) {
     throw Superseded(text("superseded by command ", newest_.id, ", which arrived later; nothing of command ",
                           command.id, " was sent"));
@@ -64,6 +73,7 @@ std::shared_ptr<const SentMotion> CommandGate::commit(const Ticket& ticket, std:
   requireNewestLocked(ticket.command_);
   ticket.cancelToken().throwIfCancelled();
   publish();
+  if (motion_ && motion_->topics && motion->topics) motion->topics->replace(motion_->topics.get());
   last_motion_ = ticket.command_.serial;
   unshown_.push_back(motion);
   if (unshown_.size() > kMostUnshown) unshown_.pop_front();
@@ -73,7 +83,7 @@ std::shared_ptr<const SentMotion> CommandGate::commit(const Ticket& ticket, std:
 
 std::shared_ptr<const SentMotion> CommandGate::stop(bool withdraws, const std::function<void()>& publish) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  stopped_ = arrivals_;
+  stopped_ = *arrivals_;
   last_stop_ = ros::WallTime::now();
   planning_.cancel();
   if (publish) publish();

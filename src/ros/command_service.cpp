@@ -31,9 +31,9 @@ CommandService::~CommandService() {
 
 void CommandService::stopServing() {
   if (action_) action_->stopTaking();
+  if (executor_) cancelWork();  // first: to take the service back may wait for a request that is being answered
   server_.shutdown();
   conditions_.clear();
-  if (executor_) cancelWork();
   executor_.reset();  // joins
   action_.reset();
 }
@@ -79,7 +79,7 @@ void CommandService::open() {
   options.name = "the executor of " + id();
   options.threads = threads.count;
   options.priority = threads.priority;
-  options.stamp = [&gate = context().gate()] { return gate.arrive(); };
+  options.stamp = context().gate().arrivalStamp();
   executor_ = std::make_unique<Executor>(options);
   openService();
   if (make_action_) action_ = make_action_();

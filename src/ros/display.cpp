@@ -12,6 +12,7 @@
 #include "external_command/ros/bounded_subscription.h"
 #include "external_command/ros/frame_id.h"
 #include "external_command/ros/map_markers.h"
+#include "external_command/ros/prepared_message.h"
 
 namespace external_command {
 
@@ -23,9 +24,15 @@ using visualization_msgs::MarkerArray;
 constexpr double kCommandPeriod = 0.05;  // [s]
 constexpr double kMapPeriod = 0.5;       // between two looks at where the vehicle is [s]
 constexpr double kIdsPeriod = 3.0;       // [s]
-constexpr double kSmallestRing = 1.5;    // radius, in lengths of the vehicle
-constexpr double kLargestRing = 25.0;    // [m]
-constexpr double kRingShare = 0.02;      // of what is drawn of the map
+
+/// roscpp would make the bytes while it holds a lock that every publisher of the process waits for, that of a stop too;
+/// these are drawn on a thread of low priority.
+void sendPrepared(const ros::Publisher& publisher, const MarkerArray& array) {
+  PreparedMessage(publisher, array).send();
+}
+constexpr double kSmallestRing = 1.5;  // radius, in lengths of the vehicle
+constexpr double kLargestRing = 25.0;  // [m]
+constexpr double kRingShare = 0.02;    // of what is drawn of the map
 
 ros::NodeHandle onQueue(ros::NodeHandle nh, ros::CallbackQueueInterface* queue) {
   nh.setCallbackQueue(queue);
@@ -119,7 +126,7 @@ MarkerArray Display::ids() {
 void Display::drawMap() {
   if (!scene_.chooser || scene_.publisher.getNumSubscribers() == 0) return;
   scene_.chooser->placeVehicle(vehicle_());
-  if (scene_.chooser->hasMoved()) scene_.publisher.publish(wholeScene());
+  if (scene_.chooser->hasMoved()) sendPrepared(scene_.publisher, wholeScene());
 }
 
 void Display::drawIds() {
@@ -132,7 +139,7 @@ void Display::drawIds() {
     array.markers.back().action = Marker::DELETEALL;
   }
   append(ids(), &array);
-  ids_.publisher.publish(array);
+  sendPrepared(ids_.publisher, array);
 }
 
 void Display::lookAt(const geometry_msgs::PointStamped& place) {
@@ -168,7 +175,7 @@ void Display::drawNewest() {
   for (const auto& scene : {sent, refused}) {
     if (!scene) continue;
     command_ = commandMarkers(*scene, map_.get(), params_.vehicle, params_.map_frame);
-    scene_.publisher.publish(command_);
+    sendPrepared(scene_.publisher, command_);
   }
 }
 

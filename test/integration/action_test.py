@@ -144,6 +144,25 @@ class ActionTest(unittest.TestCase):
         self.assert_pads(self.control, already, ControlPad.RESET, ControlPad.START)
         self.vehicle.wait_until_moving()
 
+    def stop_a_switch_to_auto(self, action):
+        """What became of a switch to auto behind which `action` was called at once."""
+        self.finish(ActionCommand.SWITCH_TO_MANUAL)
+        to_auto = self.send(ActionCommand.SWITCH_TO_AUTO)
+        stop = act(action)
+        asked = len(self.control.messages)
+        status = support.command_status(to_auto)
+        if status.status == CommandStatus.ERROR:
+            self.assertEqual(status.error_code, CommandStatus.CANCELLED, support.describe(status))
+            self.assertIn(str(stop.command_id), status.message)
+            rospy.sleep(1.0)
+            self.assertLessEqual(len(self.control.messages), asked + 1, "one may still be on the way")
+        return status
+
+    def test_what_stops_ends_a_switch_to_auto_that_is_under_way(self):
+        for action in (ActionCommand.STOP, ActionCommand.CLEAR_PLANNING):
+            support.wait_until(lambda: self.stop_a_switch_to_auto(action).status == CommandStatus.ERROR,
+                               "a switch that is under way when it is stopped")
+
     def test_a_chassis_that_is_in_auto_already_is_not_asked(self):
         already = len(self.control.messages)
         self.finish(ActionCommand.SWITCH_TO_AUTO)

@@ -83,6 +83,11 @@ class SpeedTest(unittest.TestCase):
         for factor in (-0.1, 1.1, math.nan):
             self.assert_refused(change_speed(SpeedCommand.TARGET_SPEED_FACTOR, target_speed_factor=factor), invalid,
                                 "target_speed_factor", "[0, 1]")
+        for unused in (-1.0, math.nan):
+            self.assert_refused(change_speed(SpeedCommand.TARGET_SPEED_FACTOR, target_speed=unused), invalid,
+                                "target_speed is")
+            self.assert_refused(change_speed(SpeedCommand.TARGET_SPEED, target_speed=1.0, target_speed_factor=unused),
+                                invalid, "target_speed_factor")
         sent = self.assert_sent(change_speed(SpeedCommand.RESTORE_TARGET_SPEED))
         self.assertEqual([m.command_id for m in self.sent.messages], [sent.command_id])
 

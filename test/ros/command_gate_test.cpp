@@ -75,6 +75,16 @@ TEST_F(Gate, DoesNotBeginARequestThatArrivedBeforeAStop) {
   EXPECT_THROW(gate_.begin(early, CancelSource()), Cancelled);
 }
 
+TEST_F(Gate, SendsWhatMovesNothingUnlessItArrivedBeforeAStop) {
+  const auto early = arrive(7);
+  begin(8);
+  EXPECT_NO_THROW(gate_.sendUnlessStopped(early, [this] { ++published_; })) << "a later motion does not matter";
+  gate_.stop(false, {});
+  EXPECT_THROW(gate_.sendUnlessStopped(early, [this] { ++published_; }), Cancelled);
+  EXPECT_NO_THROW(gate_.sendUnlessStopped(arrive(9), [this] { ++published_; }));
+  EXPECT_EQ(published_, 2);
+}
+
 TEST_F(Gate, SendsARequestThatArrivedAfterAStop) {
   gate_.stop(true, {});
   EXPECT_NO_THROW(send(begin(7)));

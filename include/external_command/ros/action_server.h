@@ -5,10 +5,12 @@
 #include <actionlib_msgs/GoalID.h>
 #include <actionlib_msgs/GoalStatusArray.h>
 #include <ros/node_handle.h>
+#include <ros/time.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -51,8 +53,7 @@ class BoundedActionServer : public actionlib::ActionServerBase<Action> {
         name_(std::move(name)),
         callbacks_(std::move(callbacks)),
         most_goals_(most_goals),
-        door_(ExecutorOptions{"the door of " + name_, 1, ExecutorPriority::kNormal,
-                              [&gate = context.gate()] { return gate.arrive(); }}) {}
+        door_(ExecutorOptions{"the door of " + name_, 1, ExecutorPriority::kNormal, context.gate().arrivalStamp()}) {}
 
   ~BoundedActionServer() override { close(); }
 
@@ -98,7 +99,8 @@ class BoundedActionServer : public actionlib::ActionServerBase<Action> {
 
  private:
   static constexpr std::size_t kMostEnded = 100;
-  static constexpr double kShown = 5.0;  // after its end, a goal stays in the list [s]
+  static constexpr double kShown = 5.0;     // after its end, a goal stays in the list [s]
+  static constexpr double kReleased = 0.5;  // after it is seen to have ended, nobody holds its entry any more [s]
   static constexpr std::uint32_t kQueueSize = 20;
 
   void initialize() override {
@@ -149,9 +151,17 @@ class BoundedActionServer : public actionlib::ActionServerBase<Action> {
       }
       ros::Time& ended = goal->handle_destruction_time_;
       if (ended.isZero()) ended = now;  // a cancel without a stamp, of a goal that is not known
+      // Whoever drops the last handle waits for the lock, and then writes to the entry.
+      const auto seen = seen_ended_.emplace(goal->status_.goal_id.id, ros::SteadyTime::now()).first;
+      const bool is_released = (ros::SteadyTime::now() - seen->second).toSec() > kReleased;
       const bool is_over = std::abs(now.toSec() - ended.toSec()) > kShown || spare > kMostEnded;
-      spare -= is_over ? 1 : 0;
-      goal = is_over ? this->status_list_.erase(goal) : std::next(goal);
+      if (!is_released || !is_over) {
+        ++goal;
+        continue;
+      }
+      --spare;
+      seen_ended_.erase(seen);
+      goal = this->status_list_.erase(goal);
     }
   }
 
@@ -185,9 +195,10 @@ class BoundedActionServer : public actionlib::ActionServerBase<Action> {
   const std::string name_;
   const Callbacks callbacks_;
   const std::size_t most_goals_;
-  ArrivalPace pace_;                           ///< of the door
-  const GoalArrival* arrived_ = nullptr;       ///< of the goal that is being taken; of the door
-  ros::Publisher result_, feedback_, status_;  ///< the context's: results leave, though this is gone
+  ArrivalPace pace_;                                   ///< of the door
+  std::map<std::string, ros::SteadyTime> seen_ended_;  ///< goals of the list, by id; guarded by the base's lock
+  const GoalArrival* arrived_ = nullptr;               ///< of the goal that is being taken; of the door
+  ros::Publisher result_, feedback_, status_;          ///< the context's: results leave, though this is gone
   ros::Subscriber goal_subscriber_, cancel_subscriber_;
   Executor door_;
 };

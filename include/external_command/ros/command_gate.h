@@ -53,7 +53,12 @@ class CommandGate {
   CommandGate();
 
   /// The next number; every request that came in earlier has a smaller one. Takes no lock: the network thread calls it.
-  ArrivalNumber arrive() { return ++arrivals_; }
+  ArrivalNumber arrive() { return ++*arrivals_; }
+
+  /// The same for queues that take it of each callback: they may outlive the gate.
+  std::function<ArrivalNumber()> arrivalStamp() const {
+    return [arrivals = arrivals_] { return ++*arrivals; };
+  }
 
   /// Differs from those of all other gates, of other processes too.
   const std::string& name() const { return name_; }
@@ -64,6 +69,10 @@ class CommandGate {
   /// @throws Cancelled   a stop came in since the command arrived.
   /// @throws Superseded  a command that arrived later has begun.
   void requireNewest(const AdmittedCommand& command) const;
+
+  /// Calls `publish` for a command that moves nothing by itself, before or after any stop.
+  /// @throws Cancelled  a stop came in since the command arrived; nothing is published.
+  void sendUnlessStopped(const AdmittedCommand& command, const std::function<void()>& publish) const;
 
   /// Cancels the planning in progress of an older command, if there is one. A command may begin more than once.
   /// @param planning  raised when a stop or a later command ends this one's planning.
@@ -111,12 +120,13 @@ class CommandGate {
   CommandSerial lastMotion() const;
 
  private:
+  void requireNotStoppedLocked(const AdmittedCommand& command) const;
   void requireNewestLocked(const AdmittedCommand& command) const;
   void withdrawLocked();
 
   const std::string name_;
   mutable std::mutex mutex_;
-  std::atomic<ArrivalNumber> arrivals_{0};
+  const std::shared_ptr<std::atomic<ArrivalNumber>> arrivals_ = std::make_shared<std::atomic<ArrivalNumber>>(0);
   ArrivalNumber stopped_ = 0;  ///< arrivals up to this one were stopped
   ros::WallTime last_stop_;    ///< zero: never
   AdmittedCommand newest_;     ///< that began, by its arrival

@@ -15,6 +15,7 @@ namespace external_command {
 namespace {
 
 constexpr double kTick = 0.02;  // of time-outs and repeated tries [s]
+constexpr const char* kUnloaded = "it was sent, but its processor was unloaded before anything showed its end";
 
 const std::map<std::uint8_t, std::uint8_t> kPlanningPads = {
     {ActionCommand::FOLLOW, PlanningPad::FOLLOW},
@@ -42,8 +43,17 @@ ActionCommandProcessor::ActionCommandProcessor() : ServiceCommandProcessor<Actio
 
 ActionCommandProcessor::~ActionCommandProcessor() {
   stopServing();
-  sent_motions_.disconnect();
+  if (contextPtr() == nullptr) return;
+  {
+    const std::lock_guard<std::mutex> nothing_is_sent(context().sendingMutex());
+    sent_motions_.disconnect();
+  }
   watch_executor_.stop();
+  if (!pending_) return;
+  record(pending_->giveUp(kUnloaded));
+  if (!switch_) return;
+  context().registry().update(
+      {switch_->command.serial, makeStatus(switch_->command.id, CommandStatus::UNKNOWN, ErrorCode::kOk, kUnloaded)});
 }
 
 void ActionCommandProcessor::start() {
@@ -140,21 +150,41 @@ CommandStatus ActionCommandProcessor::execute(const ActionCommand& command, cons
 
 CommandStatus ActionCommandProcessor::sendAndWatch(const ActionCommand& command, const AdmittedCommand& admitted) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (command.command != ActionCommand::STOP) context().registry().requireRunning(admitted);
-  record(pending_->add(admitted, command.command, now()));
-  is_waiting_ = true;
+  const auto watch = [&] {
+    record(pending_->add(admitted, command.command, now()));
+    is_waiting_ = true;
+  };
   if (command.command == ActionCommand::STOP) {
+    watch();
+    endSwitchToAuto(admitted, "STOP");
     context().gate().stop(true, [this] { context().planningPads().send(PlanningPad::STOP); });
-  } else if (command.command == ActionCommand::VIN_REQ) {
-    sendToControl(ControlPad::VIN_REQ);
   } else {
-    context().planningPads().send(kPlanningPads.at(command.command));
+    context().registry().requireRunning(admitted);
+    context().gate().sendUnlessStopped(admitted, [&] {
+      watch();
+      if (command.command == ActionCommand::VIN_REQ) {
+        sendToControl(ControlPad::VIN_REQ);
+      } else {
+        context().planningPads().send(kPlanningPads.at(command.command));
+      }
+    });
   }
   if (command.command == ActionCommand::START) context().showMotionAgain();
   return makeStatus(admitted.id, CommandStatus::RUNNING, ErrorCode::kOk, nameOfAction(command.command) + " sent");
 }
 
+/// What arrived before a stop is not gone on with.
+void ActionCommandProcessor::endSwitchToAuto(const AdmittedCommand& stop, const char* name) {
+  if (!switch_ || switch_->decision.target() != ModeSwitch::Target::kAuto) return;
+  context().registry().update(
+      {switch_->command.serial, makeStatus(switch_->command.id, CommandStatus::ERROR, ErrorCode::kCancelled,
+                                           text("cancelled by ", name, ", command ", stop.id))});
+  switch_.reset();
+}
+
 CommandStatus ActionCommandProcessor::clearPlanning(const AdmittedCommand& admitted) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  endSwitchToAuto(admitted, "CLEAR_PLANNING");
   const auto cleared =
       context().gate().stop(true, [this] { context().planningPads().send(PlanningPad::CLEAR_PLANNING); });
   if (cleared) {
@@ -172,16 +202,22 @@ CommandStatus ActionCommandProcessor::switchMode(const AdmittedCommand& admitted
     context().registry().requireRunning(admitted);
     chassis_->require();
   }
-  if (switch_) {
-    context().registry().update(
-        {switch_->command.serial, makeStatus(switch_->command.id, CommandStatus::ERROR, ErrorCode::kSuperseded,
-                                             text("superseded by mode switch ", admitted.id))});
-  }
-  switch_.emplace(RunningSwitch{admitted, ModeSwitch(target, mode_switch_params_, mode_is_settled_, now())});
-  is_waiting_ = true;
-  if (!to_manual) return advanceSwitch().status;
   CommandStatus status;
-  context().gate().stop(false, [&] { status = advanceSwitch().status; });
+  const auto begin = [&] {
+    if (switch_) {
+      context().registry().update(
+          {switch_->command.serial, makeStatus(switch_->command.id, CommandStatus::ERROR, ErrorCode::kSuperseded,
+                                               text("superseded by mode switch ", admitted.id))});
+    }
+    switch_.emplace(RunningSwitch{admitted, ModeSwitch(target, mode_switch_params_, mode_is_settled_, now())});
+    is_waiting_ = true;
+    status = advanceSwitch().status;
+  };
+  if (to_manual) {
+    context().gate().stop(false, begin);
+  } else {
+    context().gate().sendUnlessStopped(admitted, begin);
+  }
   return status;
 }
 

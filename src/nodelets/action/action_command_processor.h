@@ -47,6 +47,9 @@ class ActionCommandProcessor : public ServiceCommandProcessor<Action> {
   CommandStatus clearPlanning(const AdmittedCommand& admitted);
   CommandStatus switchMode(const AdmittedCommand& admitted, ModeSwitch::Target target);
 
+  /// Where one to auto is running.
+  void endSwitchToAuto(const AdmittedCommand& stop, const char* name);
+
   /// Carries the running mode switch one step on; its status.
   StatusChange advanceSwitch();
 

@@ -8,7 +8,6 @@
 #include "external_command/ActionCommand.h"
 #include "external_command/core/text.h"
 #include "external_command/ros/status.h"
-#include "nodelets/chassis/pending_list.h"
 
 namespace external_command {
 

@@ -11,6 +11,7 @@
 #include "external_command/Chassis.h"
 #include "external_command/ros/command_gate.h"
 #include "external_command/ros/command_registry.h"
+#include "nodelets/chassis/pending_list.h"
 
 namespace external_command {
 
@@ -62,6 +63,9 @@ class PendingActions {
   Changes onChassis(const Chassis& chassis);
   Changes onTime(double now);
 
+  /// What is pending is waited for no longer, whatever becomes of it.
+  Changes giveUp(const std::string& why) { return endAll(&pending_, why); }
+
   bool empty() const { return pending_.empty(); }
 
   /// Waits no longer for those whose command was ended otherwise: for them `is_running` is false.
@@ -83,8 +87,8 @@ class PendingActions {
 
   const PendingActionParams params_;
   std::vector<Pending> pending_;
-  std::string scenario_;      ///< the planner's present one
-  bool is_standing_ = false;  ///< the vehicle, as reported last
+  std::string scenario_;     ///< the planner's present one
+  bool is_standing_ = true;  ///< the vehicle, as reported last; taken for granted before the first report
 };
 
 }  // namespace external_command

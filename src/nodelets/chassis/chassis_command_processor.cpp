@@ -54,6 +54,7 @@ ChassisCommandProcessor::ChassisCommandProcessor()
 ChassisCommandProcessor::~ChassisCommandProcessor() {
   stopServing();
   watch_executor_.stop();
+  if (pending_) record(pending_->giveUp("it was sent, but its processor was unloaded before anything showed its end"));
 }
 
 void ChassisCommandProcessor::start() {
@@ -81,7 +82,7 @@ void ChassisCommandProcessor::subscribe(double timeout) {
   nh.setCallbackQueue(watch_executor_.queue());
   const auto on_chassis = [this](const ros::MessageEvent<Chassis const>& event) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    chassis_->take(*event.getConstMessage());
+    if (!chassis_->take(*event.getConstMessage())) return;
     record(pending_->onChassis(event.getConstMessage()->signal));
   };
   chassis_subscriber_ = subscribeBounded<Chassis>(nh, topic, 10, on_chassis, context().params().requests);
@@ -107,9 +108,11 @@ CommandStatus ChassisCommandProcessor::execute(const ChassisCommand& command, co
   const std::lock_guard<std::mutex> lock(mutex_);
   context().registry().requireRunning(admitted);
   const bool changes_signals = commandsAny(command.basic_signal);
-  if (changes_signals) record(pending_->add(admitted, command.basic_signal, now()));
-  is_waiting_ = true;
-  for (const ros::Publisher& publisher : publishers_) publisher.publish(command);
+  context().gate().sendUnlessStopped(admitted, [&] {
+    if (changes_signals) record(pending_->add(admitted, command.basic_signal, now()));
+    is_waiting_ = true;
+    for (const ros::Publisher& publisher : publishers_) publisher.publish(command);
+  });
   if (!changes_signals) {
     return makeStatus(command.command_id, CommandStatus::FINISHED, ErrorCode::kOk,
                       "sent; it changes no signal that could be waited for");

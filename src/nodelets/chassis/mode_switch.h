@@ -32,6 +32,8 @@ class ModeSwitch {
   /// @param now         when it was asked for [s], of any steady clock.
   ModeSwitch(Target target, const ModeSwitchParams& params, bool is_settled, double now);
 
+  Target target() const { return target_; }
+
   /// What is to be done now. To be called with every report of the chassis and, with its last one, at short intervals.
   /// @param reported  nullopt where the chassis was not heard of lately.
   Step next(const std::optional<ReportedMode>& reported, double now);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,14 @@ std::vector<StatusChange> endWhere(std::vector<Pending>* pending, const End& end
     item = status ? pending->erase(item) : item + 1;
   }
   return ended;
+}
+
+/// Nobody waits for any of them any more: their ends will not be known.
+template <class Pending>
+std::vector<StatusChange> endAll(std::vector<Pending>* pending, const std::string& why) {
+  return endWhere(pending, [&](const Pending& item) -> std::optional<CommandStatus> {
+    return makeStatus(item.command.id, CommandStatus::UNKNOWN, ErrorCode::kOk, why);
+  });
 }
 
 /// Drops those whose command has ended another way: `is_running(serial)` is false.

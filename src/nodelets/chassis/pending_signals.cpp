@@ -7,7 +7,6 @@
 #include "external_command/core/error.h"
 #include "external_command/core/text.h"
 #include "external_command/ros/status.h"
-#include "pending_list.h"
 
 namespace external_command {
 

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "external_command/VehicleSignal.h"
 #include "external_command/ros/command_registry.h"
+#include "pending_list.h"
 
 namespace external_command {
 
@@ -31,6 +33,9 @@ class PendingSignals {
 
   Changes onChassis(const VehicleSignal& reported);
   Changes onTime(double now);
+
+  /// What is pending is waited for no longer, whatever becomes of it.
+  Changes giveUp(const std::string& why) { return endAll(&pending_, why); }
 
   bool empty() const { return pending_.empty(); }
 

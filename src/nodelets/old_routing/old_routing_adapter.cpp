@@ -38,7 +38,7 @@ CommandStatus call(ros::NodeHandle& nh, const std::string& name, const Command& 
 OldRoutingAdapter::~OldRoutingAdapter() {
   request_subscriber_.shutdown();
   goal_subscriber_.shutdown();
-  take_executor_.stop();
+  if (take_executor_) take_executor_->stop();
   executor_.stop();
 }
 
@@ -55,7 +55,11 @@ void OldRoutingAdapter::start() {
 
 void OldRoutingAdapter::open() {
   ros::NodeHandle nh(getNodeHandle());
-  nh.setCallbackQueue(take_executor_.queue());
+  ExecutorOptions options;
+  options.name = "the adapter's executor of requests";
+  options.stamp = context().gate().arrivalStamp();
+  take_executor_.emplace(options);
+  nh.setCallbackQueue(take_executor_->queue());
   const auto on_request = [this](const ros::MessageEvent<RoutingRequest const>& event) {
     take(event.getConstMessage());
   };
@@ -84,7 +88,7 @@ void OldRoutingAdapter::take(const RoutingRequest::ConstPtr& request) {
   RoutingRequest::ConstPtr dropped;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    waiting_.push_back({request, context().gate().arrive(), ros::WallTime::now()});
+    waiting_.push_back({request, GuardedQueue::stampOfRunningCallback(), ros::WallTime::now()});
     if (waiting_.size() > kMaxWaiting) {
       dropped = waiting_.front().request;
       waiting_.pop_front();

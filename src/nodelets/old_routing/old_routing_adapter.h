@@ -56,8 +56,8 @@ class OldRoutingAdapter : public CommandProcessor {
   std::optional<RoutingRequestConverter> converter_;
   ros::Publisher response_publisher_;
   std::mutex mutex_;
-  std::deque<Waiting> waiting_;                                                    ///< guarded by mutex_
-  Executor take_executor_{ExecutorOptions{"the adapter's executor of requests"}};  // before its subscribers
+  std::deque<Waiting> waiting_;            ///< guarded by mutex_
+  std::optional<Executor> take_executor_;  // before its subscribers
   ros::Subscriber request_subscriber_, goal_subscriber_;
   Executor executor_{ExecutorOptions{"the adapter's executor of calls"}};  // last: joins before the rest goes
 };

@@ -109,6 +109,11 @@ TEST_F(Actions, EndAStartWhenTheVehicleMoves) {
   EXPECT_TRUE(ended(chassis(-0.2), 1, CommandStatus::FINISHED)) << "in reverse it moves as well";
 }
 
+TEST_F(Actions, EndAStartWithAFirstReportThatShowsMovement) {
+  pending_.add(command(1), ActionCommand::START, 0.0);
+  EXPECT_TRUE(ended(chassis(3.0), 1, CommandStatus::FINISHED));
+}
+
 TEST_F(Actions, DoNotTakeAMovementThatBeganBeforeForThatOfAStart) {
   chassis(3.0);
   pending_.add(command(1), ActionCommand::START, 0.0);
