@@ -54,11 +54,11 @@ CommandRegistry::Admission CommandRegistry::admit(std::int64_t wanted_id, const 
 CommandRegistry::Admission CommandRegistry::admitAlways(std::int64_t wanted_id, const CommandOwner& owner) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const Record* const known = byId(wanted_id);
-  if (known == nullptr || known->state == State::kEnded) return letIn(wanted_id, owner, 0);
-  const std::string other = known->owner.processor;
+  if (known == nullptr) return letIn(wanted_id, owner, 0);
+  const std::string other = text("command_id ", wanted_id, " belongs to a command of ", known->owner.processor,
+                                 " that ", known->state == State::kEnded ? "has ended" : "is still running");
   Admission admission = letIn(0, owner, 0);
-  admission.note = text("command_id ", wanted_id, " belongs to a command of ", other,
-                        " that is still running; this one is command ", admission.command.id);
+  admission.note = text(other, "; this one is command ", admission.command.id);
   return admission;
 }
 

@@ -209,6 +209,33 @@ class HostileRequestsTest(unittest.TestCase):
             status = started.service("external_command/zone_cover", ZoneCover)(command).status
             self.assert_refused(status, "command.non_drivable_roi[0].points", "~requests/max_points")
 
+    def test_refuses_what_is_too_large_or_cut_under_the_id_that_it_came_with(self):
+        with component() as started:
+            command = fuzz_bytes.example("path_follow")
+            command.command_id = 42
+            name = NAMESPACE + "/external_command/path_follow"
+            started.service("external_command/path_follow", PathFollow)
+            caller = fuzz_bytes.RawCaller(name, PathFollow)
+            whole = fuzz_bytes.serialized(PathFollow._request_class(command))
+            self.assertEqual(caller.call(whole[:-1]).status.command_id, 42)
+            self.assertGreater(caller.call(whole[:10]).status.command_id, 42, "its id is cut off: a fresh one")
+            caller.close()
+            command.way_point = [msg.Pose(x=float(i)) for i in range(200000)]
+            status = started.service("external_command/path_follow", PathFollow)(command).status
+            self.assert_refused(status, "~requests/max_points")
+            self.assertEqual(status.command_id, 42)
+
+    def test_refuses_a_zone_that_is_too_large_for_its_swaths_before_anything_is_planned(self):
+        with component() as started:
+            command = msg.ZoneCoverCommand(dry_run=True, is_start_pose_set=True, swath_width=0.5,
+                                           way_point=[msg.Pose(x=9.0, y=9.0, has_heading=True)])
+            command.drivable_roi.points = [Point(x, y, 0.0) for x, y in ((0, 0), (19e3, 0), (19e3, 19e3), (0, 19e3))]
+            before = most_resident(started.pid)
+            status = started.service("external_command/zone_cover", ZoneCover)(command).status
+            self.assert_refused(status, "drivable_roi", "from corner to corner", "swath_width of 0.50 m")
+            self.assertLess(most_resident(started.pid) - before, MOST_MEMORY)
+            self.assert_stops(started)
+
     def test_refuses_callers_that_are_not_named_and_services_that_are_off_but_stops_for_anyone(self):
         others = {"speed_command_processor": {"allowed_callers": ["/dispatch"]},
                   "path_follow_command_processor": {"allowed_callers": [rospy.get_name()]},

@@ -184,11 +184,19 @@ TEST_F(Registry, GivesWhatAlwaysActsAFreshIdWhereItsOwnRuns) {
   EXPECT_FALSE(again.running.has_value());
 }
 
-TEST_F(Registry, LetsWhatAlwaysActsHaveTheIdOfACommandThatHasEnded) {
+TEST_F(Registry, GivesWhatAlwaysActsAFreshIdWhereItsOwnIsThatOfACommandThatHasEnded) {
   end(admit(5));
   const auto clear = registry_.admitAlways(5, kAction);
-  EXPECT_EQ(clear.command.id, 5);
-  EXPECT_TRUE(clear.note.empty());
+  EXPECT_NE(clear.command.id, 5);
+  EXPECT_NE(clear.note.find("command_id 5 belongs to a command of lane_follow that has ended"), std::string::npos)
+      << clear.note;
+  EXPECT_TRUE(hasEnded(registry_.find(5))) << "how it ended can still be asked for";
+}
+
+TEST_F(Registry, LetsWhatAlwaysActsHaveAnIdThatNobodyUsed) {
+  const auto stop = registry_.admitAlways(5, kAction);
+  EXPECT_EQ(stop.command.id, 5);
+  EXPECT_TRUE(stop.note.empty());
 }
 
 TEST_F(Registry, TakesNoteOfNoReportWithoutAProperStatus) {

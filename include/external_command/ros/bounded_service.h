@@ -25,8 +25,12 @@ struct BoundedServiceCallbacks {
   std::function<Response(const Request& request, const MessageSize& size, const ros::M_string& header)> answer;
 
   /// Nothing can be built from what came: called while the exception that tells why is being handled.
-  std::function<Response(const ros::M_string& header)> refuse;
+  std::function<Response(const ros::SerializedMessage& request, const ros::M_string& header)> refuse;
 };
+
+inline std::size_t lengthOf(const ros::SerializedMessage& request) {
+  return request.num_bytes - static_cast<std::size_t>(request.message_start - request.buf.get());
+}
 
 /// Looks at the bytes of a request, its texts apart, before anything is built from them. roscpp believes what they say.
 template <class Service>
@@ -45,10 +49,6 @@ class BoundedServiceHelper : public ros::ServiceCallbackHelper {
   }
 
  private:
-  static std::size_t lengthOf(const ros::SerializedMessage& bytes) {
-    return bytes.num_bytes - static_cast<std::size_t>(bytes.message_start - bytes.buf.get());
-  }
-
   Response answer(const ros::SerializedMessage& bytes, const ros::M_string& header) const {
     using Request = typename Service::Request;
     Request request;
@@ -58,7 +58,7 @@ class BoundedServiceHelper : public ros::ServiceCallbackHelper {
       limits_.requireRequest(size, ros::message_traits::definition<Request>());
       ros::serialization::deserializeMessage(bytes, request);
     } catch (...) {
-      return callbacks_.refuse(header);
+      return callbacks_.refuse(bytes, header);
     }
     return callbacks_.answer(request, size, header);
   }

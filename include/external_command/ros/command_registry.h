@@ -73,7 +73,7 @@ class CommandRegistry {
   /// @throws DuplicateId  another command with this id is still running.
   Admission admit(std::int64_t wanted_id, const CommandOwner& owner, std::uint64_t digest);
 
-  /// The same for a request that is carried out whatever its id: under a running one it gets a fresh id.
+  /// The same for a request that is carried out whatever its id: under a known one it gets a fresh id.
   Admission admitAlways(std::int64_t wanted_id, const CommandOwner& owner);
 
   /// Answers a request that failed. Recorded under its id, except while another command runs under it.

@@ -95,13 +95,27 @@ class ServiceCommandProcessor : public CommandService {
       const ArrivalNumber arrival = earlierArrival(header, context().gate(), arrivalOfThisCallback());
       return process(request.command, Origin{callerOf(header), arrival, size, {}});
     };
-    callbacks.refuse = [this](const ros::M_string& header) {
+    callbacks.refuse = [this](const ros::SerializedMessage& request, const ros::M_string& header) {
       Response response;
-      response.status = refuse(0);
+      response.status = refuse(idOf(request));
       logRefusal(callerOf(header), response.status);
       return response;
     };
     return boundedService<Service>(serviceName(), std::move(callbacks), context().params().requests);
+  }
+
+  /// The command's header and id come first; 0 where not even these are there.
+  static std::int64_t idOf(const ros::SerializedMessage& request) {
+    try {
+      ros::serialization::IStream bytes(request.message_start, static_cast<std::uint32_t>(lengthOf(request)));
+      std_msgs::Header header;
+      std::int64_t id = 0;
+      bytes.next(header);
+      bytes.next(id);
+      return id;
+    } catch (const ros::Exception&) {
+      return 0;
+    }
   }
 
   /// What always acts is refused for nothing that has no part in it.

@@ -28,10 +28,10 @@ CommandServices::CommandServices(const ros::NodeHandle& nh, const ParameterReade
   serve<GetCommandStatus>(
       "command_status_service_name", "external_command/command_status", &status_executor_,
       {[this](const auto& request, const MessageSize&, const ros::M_string&) { return status(request); },
-       [](const ros::M_string&) { return refusal<GetCommandStatus::Response>(); }});
+       [](const ros::SerializedMessage&, const ros::M_string&) { return refusal<GetCommandStatus::Response>(); }});
   serve<GetCurrentCommand>("current_command_service_name", "external_command/current_command", &status_executor_,
                            {[this](const auto&, const MessageSize&, const ros::M_string&) { return current(); },
-                            [](const ros::M_string&) {
+                            [](const ros::SerializedMessage&, const ros::M_string&) {
                               GetCurrentCommand::Response response;
                               response.motion = statusFrom(std::current_exception(), 0);
                               return response;
@@ -39,7 +39,7 @@ CommandServices::CommandServices(const ros::NodeHandle& nh, const ParameterReade
   serve<CancelCommand>(
       "cancel_command_service_name", "external_command/cancel_command", &cancel_executor_,
       {[this](const auto& request, const MessageSize&, const ros::M_string& header) { return cancel(request, header); },
-       [](const ros::M_string&) { return refusal<CancelCommand::Response>(); }});
+       [](const ros::SerializedMessage&, const ros::M_string&) { return refusal<CancelCommand::Response>(); }});
 }
 
 CommandServices::~CommandServices() {

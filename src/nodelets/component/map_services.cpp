@@ -67,7 +67,9 @@ MapServices::MapServices(const ros::NodeHandle& nh, const ParameterReader& param
   callbacks.answer = [this](const auto& request, const MessageSize& size, const ros::M_string&) {
     return find(request, size);
   };
-  callbacks.refuse = [](const ros::M_string&) { return refusal(); };
+  callbacks.refuse = [](const ros::SerializedMessage& /*request*/, const ros::M_string& /*header*/) {
+    return refusal();
+  };
   server_ = serveOn<FindMapObjects>(&executor_, nh, name, std::move(callbacks), context_->params().requests);
 }
 

@@ -82,7 +82,7 @@ void MoveBaseAdapter::open() {
     const auto caller = header.find("callerid");
     return makePlan(request, caller == header.end() ? std::string() : caller->second);
   };
-  callbacks.refuse = [this](const ros::M_string& /*header*/) {
+  callbacks.refuse = [this](const ros::SerializedMessage& /*request*/, const ros::M_string& /*header*/) {
     logLater(LogLevel::kWarn,
              text(getName(), ": a request for a plan was refused: ", statusFrom(std::current_exception(), 0).message));
     return nav_msgs::GetPlan::Response();
