@@ -18,8 +18,8 @@ Region::Parts partsOf(const FreeSpaceCommand& command, const Pose2d& frame, cons
   }
   for (std::size_t i = 0; i < command.non_drivable_roi.size(); ++i) {
     cancel.throwIfCancelled();
-    parts.non_drivable.push_back(obstaclePolygon(toMapPoints(command.non_drivable_roi[i].points, frame),
-                                                 text("non_drivable_roi[", i, "]")));
+    parts.non_drivable.push_back(
+        obstaclePolygon(toMapPoints(command.non_drivable_roi[i].points, frame), text("non_drivable_roi[", i, "]")));
   }
   return parts;
 }
@@ -57,13 +57,27 @@ void FreeSpaceCommandProcessor::check(const FreeSpaceCommand& command) const {
   partsOf(command, {}, {});  // polygons that cross themselves
 }
 
+Pose2d FreeSpaceCommandProcessor::goalOf(const FreeSpaceCommand& command, const PlanStart& start,
+                                         std::vector<std::string>* warnings) const {
+  const Pose2d goal = toMapPose(command.parking_spot_pose, context().vehiclePose().ofFrame(command.header.frame_id));
+  goal_limits_.check("parking_spot_pose is at", "goal", goal.position(), start.pose().position(), warnings);
+  return goal;
+}
+
+/// Drives no lanes, but tells what is wrong before that disturbs another command that is being planned.
+std::optional<RoutingTask> FreeSpaceCommandProcessor::convert(const FreeSpaceCommand& command, const PlanStart& start) {
+  std::vector<std::string> told_by_the_plan;
+  goalOf(command, start, &told_by_the_plan);
+  if (planner_->hasGrid()) planner_->gridWords();
+  return std::nullopt;
+}
+
 void FreeSpaceCommandProcessor::processSpecialCommand(const FreeSpaceCommand& command, const CancelToken& cancel,
                                                       MotionPlan* plan) {
   const Deadline deadline = planner_->deadline();
   const Pose2d frame = context().vehiclePose().ofFrame(command.header.frame_id);
   const Pose2d start = plan->start.pose();
-  const Pose2d goal = toMapPose(command.parking_spot_pose, frame);
-  goal_limits_.check("parking_spot_pose is at", "goal", goal.position(), start.position(), &plan->report.warnings);
+  const Pose2d goal = goalOf(command, plan->start, &plan->report.warnings);
   const Region region = planner_->regionOf(partsOf(command, frame, cancel));
 
   plan->scene.start = start;

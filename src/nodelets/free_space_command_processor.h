@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "distance_limits.h"
 #include "external_command/FreeSpace.h"
@@ -19,7 +21,10 @@ class FreeSpaceCommandProcessor : public MotionCommandProcessor<FreeSpace> {
   void start() override;
   void check(const FreeSpaceCommand& command) const override;
   double planningTime(const FreeSpaceCommand& command, const Pose2d& vehicle) const override;
+  std::optional<RoutingTask> convert(const FreeSpaceCommand& command, const PlanStart& start) override;
   void processSpecialCommand(const FreeSpaceCommand& command, const CancelToken& cancel, MotionPlan* plan) override;
+
+  Pose2d goalOf(const FreeSpaceCommand& command, const PlanStart& start, std::vector<std::string>* warnings) const;
 
   std::optional<ManoeuvrePlanner> planner_;
   DistanceLimits goal_limits_{100.0, 0.0};

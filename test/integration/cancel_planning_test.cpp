@@ -8,11 +8,17 @@
 #include <future>
 #include <pluginlib/class_loader.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "external_command/Action.h"
 #include "external_command/CancelCommand.h"
+#include "external_command/FreeSpace.h"
+#include "external_command/GetCommandStatus.h"
 #include "external_command/PlanningCommand.h"
 #include "external_command/PlanningPad.h"
+#include "external_command/RoiPolygon.h"
+#include "external_command/ZoneCover.h"
 #include "support/blocking_nodelets.h"
 #include "support/inbox.h"
 
@@ -20,6 +26,17 @@ namespace external_command {
 namespace {
 
 constexpr double kLatest = 0.1;  // [s]
+
+RoiPolygon bowTie() {
+  RoiPolygon polygon;
+  for (const auto& [x, y] : {std::pair(0.0, 0.0), std::pair(30.0, 30.0), std::pair(30.0, 0.0), std::pair(0.0, 30.0)}) {
+    geometry_msgs::Point point;
+    point.x = x;
+    point.y = y;
+    polygon.points.push_back(point);
+  }
+  return polygon;
+}
 
 bool isMotion(const PlanningCommand& command) { return command.is_motion_command; }
 bool isWithdrawal(const PlanningCommand& command) { return !command.is_motion_command; }
@@ -93,6 +110,39 @@ TEST_F(Cancel, EndsAPlanThatPollsItsToken) {
   expectCancelled(answer.status, 7);
   EXPECT_TRUE(gate->waitForLeft(1)) << "though nobody opened the gate";
   expectCancelled(planned.get(), 7);
+}
+
+TEST_F(Cancel, LeavesAPlanAloneWhereANewerCommandIsRefused) {
+  const auto gate = planner_->holdPlans(true);
+  auto planned = plan(7);
+  ASSERT_TRUE(gate->waitForEntered(1));
+  FreeSpace free_space;
+  free_space.request.command.header.frame_id = "nonsense";
+  free_space.request.command.parking_spot_pose.has_heading = 1;
+  ASSERT_TRUE(ros::service::call("external_command/free_space", free_space));
+  EXPECT_EQ(free_space.response.status.error_code, CommandStatus::INVALID_REQUEST);
+  ZoneCover zone_cover;
+  zone_cover.request.command.drivable_roi = bowTie();
+  ASSERT_TRUE(ros::service::call("external_command/zone_cover", zone_cover));
+  EXPECT_EQ(zone_cover.response.status.error_code, CommandStatus::INVALID_REQUEST);
+  EXPECT_NE(zone_cover.response.status.message.find("drivable_roi"), std::string::npos);
+  gate->open();
+  EXPECT_EQ(planned.get().status, CommandStatus::RUNNING);
+}
+
+TEST_F(Cancel, LeavesNoActionRunningWhoseProcessorIsUnloaded) {
+  ASSERT_TRUE(load("action", "external_command/ActionCommandProcessor"));
+  ASSERT_TRUE(ros::service::waitForService("external_command/action", 10000));
+  Action pull_over;
+  pull_over.request.command.command = ActionCommand::PULL_OVER;
+  ASSERT_TRUE(ros::service::call("external_command/action", pull_over));
+  EXPECT_EQ(pull_over.response.status.status, CommandStatus::RUNNING) << pull_over.response.status.message;
+  ASSERT_TRUE(loader_.unload(ros::names::resolve("action")));
+  GetCommandStatus asked;
+  asked.request.command_id = pull_over.response.status.command_id;
+  ASSERT_TRUE(ros::service::call("external_command/command_status", asked));
+  EXPECT_EQ(asked.response.status.status, CommandStatus::UNKNOWN);
+  EXPECT_NE(asked.response.status.message.find("unloaded"), std::string::npos) << asked.response.status.message;
 }
 
 TEST_F(Cancel, KeepsAPlanFromBeingSentThatDoesNotNotice) {

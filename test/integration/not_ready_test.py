@@ -9,14 +9,18 @@ import tf2_ros
 from geometry_msgs.msg import TransformStamped
 
 import support
-from external_command.msg import CommandStatus, LaneFollowCommand, PlanningCommand, Pose
-from external_command.srv import LaneFollow
+from external_command.msg import CommandStatus, LaneFollowCommand, PathFollowCommand, PlanningCommand, Pose
+from external_command.srv import LaneFollow, PathFollow
 
 EAST_END = Pose(x=300.0, y=195.0)
 
 
 def lane_follow(ns, **fields):
     return support.service("/%s/external_command/lane_follow" % ns, LaneFollow)(LaneFollowCommand(**fields)).status
+
+
+def path_follow(ns, command):
+    return support.service("/%s/external_command/path_follow" % ns, PathFollow)(command).status
 
 
 class NotReadyTest(unittest.TestCase):
@@ -43,7 +47,15 @@ class NotReadyTest(unittest.TestCase):
             answer = lane_follow("without_pose", end_pose=EAST_END, dry_run=True)
             return answer.error_code != CommandStatus.NOT_READY
 
+        in_its_frame = PathFollowCommand(way_point=[Pose(), Pose(x=10.0)], dry_run=True)
+        in_its_frame.header.frame_id = "nobody"
+        self.assertEqual(path_follow("without_pose", in_its_frame).error_code, CommandStatus.NOT_READY)
         support.wait_until(is_known, "the pose is known")
+        self.assertEqual(path_follow("without_pose", in_its_frame).status, CommandStatus.FINISHED)
+        rospy.sleep(1.5)  # beyond ~max_pose_age
+        status = path_follow("without_pose", in_its_frame)
+        self.assertEqual(status.error_code, CommandStatus.NOT_READY, support.describe(status))
+        self.assertIn("~max_pose_age", status.message)
         self.assertEqual(sent.messages, [])
 
     def test_a_given_start_needs_no_vehicle(self):

@@ -165,6 +165,8 @@ void leaveParkingPlace(const ProcessContext& context, const Pose2d& vehicle, con
       return;
     } catch (const Cancelled&) {
       throw;
+    } catch (const NotReady&) {
+      throw;  // of the obstacle grid, for each of the places
     } catch (const Error& error) {
       why += text(why.empty() ? "" : "; ", error.what());
     }

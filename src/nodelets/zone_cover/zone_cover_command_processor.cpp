@@ -22,6 +22,11 @@ namespace {
 constexpr double kTrackingPeriod = 0.1;  // [s]
 constexpr double kLeastBudget = 1e-3;    // that a plan is begun with [s]
 
+void requireStartHeading(const ZoneCoverCommand& command) {
+  if (command.way_point[0].has_heading) return;
+  throw InvalidRequest("way_point[0].has_heading is false; the start of a zone needs a heading");
+}
+
 }  // namespace
 
 CoverageParams readCoverageParams(const ParameterReader& reader) {
@@ -98,9 +103,7 @@ void ZoneCoverCommandProcessor::check(const ZoneCoverCommand& command) const {
   if (by_polygon && command.way_point.size() > (command.is_start_pose_set ? 1u : 0u)) {
     throw InvalidRequest("way_point needs lanes to drive on; with drivable_roi only a start can be given");
   }
-  if (by_polygon && command.is_start_pose_set && !command.way_point[0].has_heading) {
-    throw InvalidRequest("way_point[0].has_heading is false; the start of a zone needs a heading");
-  }
+  if (by_polygon && command.is_start_pose_set) requireStartHeading(command);
   if (by_polygon) checkPolygon(command.drivable_roi, "drivable_roi", context().params().requests);
   checkPolygons(command.non_drivable_roi, "non_drivable_roi", context().params().requests);
   paramsFor(command);
@@ -160,10 +163,16 @@ double ZoneCoverCommandProcessor::planningTime(const ZoneCoverCommand& command, 
   return drives_lanes ? 0.0 : coverage_params_.time_budget;
 }
 
+/// What is wrong with a polygon shows before that disturbs another command that is being planned.
 std::optional<RoutingTask> ZoneCoverCommandProcessor::convert(const ZoneCoverCommand& command, const PlanStart& start) {
+  zoneOf(command, {});
+  givenStart(command, start);
   if (command.zone_cover_area_id.empty()) return std::nullopt;
   const Area& area = areaOf(command);
-  if (isInside(command, start)) return std::nullopt;
+  if (isInside(command, start)) {
+    if (command.is_start_pose_set) requireStartHeading(command);
+    return std::nullopt;
+  }
   RoutingTask task =
       beginRoutingTask(context(), start, command.header.frame_id, command.is_start_pose_set, command.way_point);
   setGoals(context().requireRouter().map(), accessPoints(context().requireRouter().map(), area, access_distance_),
@@ -262,14 +271,14 @@ void ZoneCoverCommandProcessor::begin(PlannedSweep* planned, const SentMotion& m
   keeper_->adopt(*planned->draft);
   const bool goes_on = planned->resumes && sweep_ && sweep_->path == next.path;
   if (goes_on && next.zone.takeOver(sweep_->zone.progress())) keeper_->note(next.path, next.zone.progress(), true);
-  if (sweep_ && sweep_->path != next.path) keeper_->finish(sweep_->path);
+  if (sweep_ && !sweep_->is_over && sweep_->path != next.path) keeper_->finish(sweep_->path);
   sweep_.emplace(std::move(next));
 }
 
 void ZoneCoverCommandProcessor::track() {
   keeper_->tick();
   const std::lock_guard<std::mutex> lock(sweep_mutex_);
-  if (!sweep_) return;
+  if (!sweep_ || sweep_->is_over) return;
   const std::optional<CommandStatus> status = context().registry().statusOf(sweep_->command.serial);
   try {
     if (status && status->status == CommandStatus::FINISHED && sweep_->zone.finish()) {
@@ -281,7 +290,7 @@ void ZoneCoverCommandProcessor::track() {
   }
   if (status && !hasEnded(*status)) return;
   keeper_->finish(sweep_->path);
-  sweep_.reset();
+  sweep_->is_over = true;
 }
 
 void ZoneCoverCommandProcessor::followVehicle() {

@@ -26,6 +26,7 @@ class ZoneCoverCommandProcessor : public MotionCommandProcessor<ZoneCover> {
     AdmittedCommand command;
     std::string path;  ///< of its file
     ZoneSweep zone;
+    bool is_over = false;  ///< kept all the same: a plan that was begun before may go on with it
   };
 
   /// A sweep that is planned, and not sent yet.
