@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "external_command/ros/motion_topics.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "external_command/ros/motion_bytes.h"
@@ -12,6 +13,12 @@ namespace {
 std_msgs::Header stampedNow(std_msgs::Header header) {
   header.stamp = ros::Time::now();
   return header;
+}
+
+RoutingResponse noRoute(const std_msgs::Header& header) {
+  RoutingResponse response;
+  response.header = header;
+  return response;
 }
 
 }  // namespace
@@ -27,21 +34,35 @@ MotionTopics::MotionTopics(MotionPublishers publishers, PlanningCommand&& comman
 std::vector<PreparedMessage> MotionTopics::view() const {
   std::vector<PreparedMessage> messages;
   if (route_) messages.emplace_back(publishers_.routing, *route_);
+  if (ends_route_) messages.emplace_back(publishers_.routing, noRoute(header_));
   if (path_) messages.emplace_back(publishers_.path, navPathBytesOf(*path_, header_));
   return messages;
+}
+
+void MotionTopics::replace(MotionTopics* earlier) {
+  ends_route_ = !route_ && !earlier->is_withdrawn_ && (earlier->route_ || earlier->ends_route_);
+  if (earlier->is_withdrawn_) return;
+  for (const ros::Publisher& publisher : earlier->publishers_.commands) {
+    const auto isTheSame = [&](const ros::Publisher& own) { return own.getTopic() == publisher.getTopic(); };
+    const auto& own = publishers_.commands;
+    if (std::none_of(own.begin(), own.end(), isTheSame)) publisher.publish(earlier->withdrawal());
+  }
 }
 
 void MotionTopics::withdraw() {
   if (is_withdrawn_) return;
   is_withdrawn_ = true;
+  const PlanningCommand command = withdrawal();
+  for (const ros::Publisher& publisher : publishers_.commands) publisher.publish(command);
+  publishers_.path.publish(navPathBytesOf({}, command.header));
+  publishers_.routing.publish(noRoute(command.header));
+}
+
+PlanningCommand MotionTopics::withdrawal() const {
   PlanningCommand command;
   command.header = stampedNow(header_);
   command.command_id = command_id_;
-  for (const ros::Publisher& publisher : publishers_.commands) publisher.publish(command);
-  publishers_.path.publish(navPathBytesOf({}, command.header));
-  RoutingResponse no_route;
-  no_route.header = command.header;
-  publishers_.routing.publish(no_route);
+  return command;
 }
 
 void MotionTopics::showAgain(const Path& rest) {
