@@ -218,13 +218,18 @@ class PathBuilder {
   CoverageResult* result_;
 };
 
-/// What is still to be driven: the lines in their order, those that were skipped at the end.
+/// What is still to be driven: the line in hand, those after it and those before it in their order, and those that
+/// were skipped at the end.
 std::vector<std::size_t> todoOf(const CoverageProgress& progress, std::size_t total) {
   std::vector<bool> skipped(total, false);
   for (const std::size_t index : progress.skipped) skipped[index] = true;
+  std::size_t in_hand = progress.swept.size();
+  while (in_hand > 0 && progress.swept[in_hand - 1] <= 0.0) --in_hand;
+  if (in_hand > 0) --in_hand;
   std::vector<std::size_t> todo;
   for (const bool wanted : {false, true}) {
-    for (std::size_t i = 0; i < total; ++i) {
+    for (std::size_t k = 0; k < total; ++k) {
+      const std::size_t i = (in_hand + k) % total;
       const bool is_done = !progress.lines.empty() && progress.isDone(i);
       if (!is_done && skipped[i] == wanted) todo.push_back(i);
     }

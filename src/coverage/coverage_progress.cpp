@@ -19,6 +19,7 @@ constexpr double kRounding = 1e-6;    ///< of lengths that were written and read
 constexpr double kBendSlack = 1.001;  ///< curvatures come from searches that round
 constexpr double kMostCells = 4e6;    ///< of the raster that tells what lies in the area
 constexpr double kCell = 0.25;        ///< of it, where the area is not too large for that [m]
+constexpr double kMostColumns = 1e5;  ///< of it
 constexpr double kMostSwept = 4.0;    ///< metres in all, as multiple of a path that sweeps everything once
 constexpr double kMostAcross = 30.0;  ///< the same for small areas, as multiple of their diagonal
 constexpr double kLongest = 1e7;      ///< [m]
@@ -33,7 +34,7 @@ class LineCheck {
         cancel_(cancel),
         origin_(area.box().min),
         size_(sizeOf(area.box())),
-        cell_(std::max(kCell, std::sqrt(size_.x() * size_.y() / kMostCells))),
+        cell_(std::max({kCell, std::sqrt(size_.x() * size_.y() / kMostCells), size_.maxCoeff() / kMostColumns})),
         inside_({Point2d::Zero(), size_}, cell_),
         rest_(std::min(kLongest, kMostSwept * area.area() / params.swath_width + kMostAcross * size_.norm())) {
     std::vector<Point2d> points = area.points();
@@ -52,6 +53,10 @@ class LineCheck {
       const double most = 1.0 / vehicle_.min_turning_radius * kBendSlack;
       if (!(std::abs(arc.kappa) <= most)) {
         throw InvalidRequest(text(who, " bends by ", arc.kappa, " 1/m, the vehicle by ", most, " at most"));
+      }
+      const double longest = arc.kappa == 0.0 ? size_.norm() : 2.0 * M_PI / std::abs(arc.kappa);
+      if (!(std::abs(arc.length) <= kBendSlack * longest)) {
+        throw InvalidRequest(text(who, " has an arc of ", arc.length, " m, longer than the area or than a circle"));
       }
       rest_ -= std::abs(arc.length);
       if (!(rest_ >= 0.0)) throw InvalidRequest(text(who, " makes the swaths longer than such an area needs"));

@@ -2,7 +2,9 @@
 #include "collision_probe.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
 #include <vector>
 
 #include "external_command/core/text.h"
@@ -20,17 +22,26 @@ Collision::Kind kindOf(int source) {
   return source == kGridSource ? Collision::Kind::kGrid : Collision::Kind::kNonDrivable;
 }
 
-/// Slow and plain: one pose against all the edges of one obstacle.
+/// Slow and plain: one pose against all the edges of one obstacle that it could meet.
 class Probe {
  public:
-  Probe(const FootprintIndex& index, const Pose2d& pose) : index_(index), pose_(pose) {}
+  Probe(const FootprintIndex& index, const Pose2d& pose) : index_(index), pose_(pose) {
+    const std::vector<ObstacleEdge>& edges = index_.obstacles().edges();
+    const double reach = kFarthest + index_.box().circumradius() + std::abs(index_.box().centre) + index_.margin();
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const Point2d nearest = nearestOnSegment(pose.position(), edges[i].begin, edges[i].end);
+      if ((nearest - pose.position()).norm() <= reach) near_[edges[i].source].push_back(i);
+    }
+  }
 
   /// True where the footprint, moved by `shift`, comes nearer than the margin to `source`.
   bool collides(int source, const Point2d& shift) const {
     const Frame frame = shifted(shift);
     const std::vector<ObstacleEdge>& edges = index_.obstacles().edges();
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-      if (edges[i].source == source && index_.isTooNear(index_.distanceTo(edges[i], frame), i)) return true;
+    if (const auto near = near_.find(source); near != near_.end()) {
+      for (const std::size_t i : near->second) {
+        if (index_.isTooNear(index_.distanceTo(edges[i], frame), i)) return true;
+      }
     }
     const double c = index_.box().centre;
     return index_.obstacles().isFilledBy(source, {frame.x + c * frame.cos, frame.y + c * frame.sin});
@@ -73,6 +84,7 @@ class Probe {
 
   const FootprintIndex& index_;
   Pose2d pose_;
+  std::map<int, std::vector<std::size_t>> near_;  ///< edges that the footprint could meet, of each source
 };
 
 /// The obstacles that may be met, one source each.

@@ -16,8 +16,9 @@ constexpr double kCheckStep = 0.1;       ///< most that a corner moves between t
 constexpr double kMaxCells = 2.5e6;      ///< of the grid; sets its finest cell
 constexpr double kCellsPerSwath = 12.0;  ///< across
 constexpr double kMaxExtent = 20e3;      ///< of the area [m]
-constexpr double kMostShift = 1.5;       ///< [swath widths]
-constexpr double kUnwanted = 5000.0;     ///< price of a change of gear for a vehicle that is not to reverse [m]
+constexpr double kMostWidths = 1600.0;  ///< from corner to corner: memory and time of a look at the swaths grow with it
+constexpr double kMostShift = 1.5;      ///< [swath widths]
+constexpr double kUnwanted = 5000.0;    ///< price of a change of gear for a vehicle that is not to reverse [m]
 
 Region regionOf(const CoverageArea& area, const CoverageParams& params, const Point2d& origin,
                 const Checkpoint& checkpoint) {
@@ -33,11 +34,16 @@ Region regionOf(const CoverageArea& area, const CoverageParams& params, const Po
   return Region(std::move(parts));
 }
 
-Point2d originOf(const CoverageArea& area) {
+Point2d originOf(const CoverageArea& area, double swath_width) {
   const BoundingBox& box = area.outer.box();
   const Point2d size = box.max - box.min;
   if (size.maxCoeff() > kMaxExtent) {
     throw InvalidRequest(text(area.name, " is ", metres(size.maxCoeff()), " across; at most ", metres(kMaxExtent),
+                              " can be planned: divide it"));
+  }
+  if (size.norm() > kMostWidths * swath_width) {
+    throw InvalidRequest(text(area.name, " is ", metres(size.norm()), " from corner to corner; with a swath_width of ",
+                              metres(swath_width), " at most ", metres(kMostWidths * swath_width),
                               " can be planned: divide it"));
   }
   return {std::round(box.min.x()), std::round(box.min.y())};
@@ -45,8 +51,13 @@ Point2d originOf(const CoverageArea& area) {
 
 template <class IsFree>
 bool allFree(const Curve& curve, double reach, const IsFree& isFree) {
-  for (const Pose2d& pose : posesAlong(curve, reach, kCheckStep)) {
-    if (!isFree(pose)) return false;
+  if (!isFree(curve.start)) return false;
+  Curve piece{curve.start, {}};
+  for (const ArcSegment& arc : curve.arcs) {
+    piece.arcs.assign(1, arc);
+    const std::vector<Pose2d> poses = posesAlong(piece, reach, kCheckStep);
+    if (!std::all_of(poses.begin() + 1, poses.end(), isFree)) return false;
+    piece.start = poses.back();
   }
   return true;
 }
@@ -58,7 +69,7 @@ Field::Field(const VehicleParams& vehicle, const CoverageParams& params, const C
     : vehicle_(vehicle),
       params_(params),
       cancel_(cancel),
-      origin_(originOf(area)),
+      origin_(originOf(area, params.swath_width)),
       reach_(
           std::hypot(std::max(vehicle.wheelbase + vehicle.front_overhang, vehicle.rear_overhang), vehicle.width / 2.0)),
       region_(regionOf(area, params, origin_, checkpoint())),

@@ -30,6 +30,7 @@ class LineSearch {
     StretchSearch search(prices_.turn, profile.bin());
     const double pitch = (field_.width() - field_.params().overlap) / profile.bin();
     for (double first = -offset; first < profile.rows(); first += pitch) {
+      field_.poll();
       const int row = static_cast<int>(std::lround(first));
       const double across = first * profile.bin() + field_.width() / 2.0;
       if (prices_.unswept * profile.areaOf(row, row + bins) <= prices_.turn) continue;
