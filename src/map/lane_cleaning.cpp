@@ -32,6 +32,8 @@ FaultPlace beginOf(const LaneData& lane) {
   return {has_place ? std::optional<Point2d>(lane.center.front()) : std::nullopt};
 }
 
+constexpr double kWidest = 1e4;  ///< half of a lane [m]
+
 bool isUsable(double value) { return std::isfinite(value) && value >= 0.0; }
 
 void cleanBoundary(const LaneData& lane, const char* side, LaneBoundary* boundary, MapFaults* faults) {
@@ -48,7 +50,9 @@ void cleanBoundary(const LaneData& lane, const char* side, LaneBoundary* boundar
 }
 
 void cleanWidths(const LaneData& lane, std::vector<WidthSample>* samples, MapFaults* faults) {
-  const auto is_bad = [](const WidthSample& sample) { return !isUsable(sample.s) || !isUsable(sample.width); };
+  const auto is_bad = [](const WidthSample& sample) {
+    return !isUsable(sample.s) || !isUsable(sample.width) || sample.width > kWidest;
+  };
   const auto bad = std::remove_if(samples->begin(), samples->end(), is_bad);
   for (auto sample = bad; sample != samples->end(); ++sample) {
     faults->add(MapFault::kWidthSampleUnusable, {lane.id}, beginOf(lane), lane.id);

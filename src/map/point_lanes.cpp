@@ -41,7 +41,7 @@ class PointLanes {
       const std::vector<Point2d>& line = before->center;
       const auto begin = std::find_if(line.rbegin(), line.rend(),
                                       [&](const Point2d& point) { return (line.back() - point).norm() >= kPoint; });
-      return headingOf(line.back() - *begin);
+      if (begin != line.rend()) return headingOf(line.back() - *begin);
     }
     for (const std::string& id : lane.successors) {
       const LaneData* after = find(id);
@@ -49,7 +49,7 @@ class PointLanes {
       const std::vector<Point2d>& line = after->center;
       const auto end = std::find_if(line.begin(), line.end(),
                                     [&](const Point2d& point) { return (point - line.front()).norm() >= kPoint; });
-      return headingOf(*end - line.front());
+      if (end != line.end()) return headingOf(*end - line.front());
     }
     return 0.0;
   }
@@ -57,9 +57,10 @@ class PointLanes {
   /// A lane that has a length.
   const LaneData* find(const std::string& id) const {
     const auto found = lane_by_id_.find(id);
-    if (found == lane_by_id_.end() || found->second->center.size() < 2 || isPoint(found->second->center))
-      return nullptr;
-    return found->second;
+    if (found == lane_by_id_.end()) return nullptr;
+    const std::vector<Point2d>& line = found->second->center;
+    const bool is_line = line.size() >= 2 && std::all_of(line.begin(), line.end(), isPlausible) && !isPoint(line);
+    return is_line ? found->second : nullptr;
   }
 
   MapData& data_;

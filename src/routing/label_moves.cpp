@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "abreast.h"
 #include "label_search.h"
@@ -16,7 +18,8 @@ constexpr double kLateChangePrice =
 constexpr double kSamePlace = 0.001;  // [m]
 constexpr double kTiny = 1e-9;        // [m]
 constexpr int kMaxChangePieces = 64;  // over which one change may run
-constexpr int kMaxLanesBehind = 5;    // over which a place behind a start is looked for
+constexpr std::size_t kMaxCrossedPairs = 256;  // of one change, whatever ways it could take
+constexpr int kMaxLanesBehind = 5;             // over which a place behind a start is looked for
 
 }  // namespace
 
@@ -39,7 +42,7 @@ void LabelSearch::arrive(std::int32_t index, const SearchLabel& label) {
   for (std::size_t i = 0; i < work_.targets.size(); ++i) {
     const LanePoint place = work_.targets[i].place;
     if (blocked_.contains(place.lane, place.s)) continue;
-    if (isAhead(here, place, params_.stopping_error, 0) || isAhead(before, place, params_.stopping_error, 0)) {
+    if (isAhead(here, place, params_.stopping_error) || isAhead(before, place, params_.stopping_error)) {
       arrive(index, label, static_cast<std::int32_t>(i), label.s);
     }
   }
@@ -59,14 +62,24 @@ void LabelSearch::arrive(std::int32_t index, const SearchLabel& label, std::int3
 }
 
 /// Whether `point` lies at most `reach` [m] ahead of `place`, on its lane or those that follow.
-bool LabelSearch::isAhead(const LanePoint& point, const LanePoint& place, double reach, int lanes) const {
+bool LabelSearch::isAhead(const LanePoint& point, const LanePoint& place, double reach) const {
   if (point.lane == place.lane && point.s >= place.s) return point.s - place.s <= reach;
-  const double rest = graph_.length(place.lane) - place.s;
-  if (rest > reach || lanes == kMaxLanesBehind) return false;
-  const Span<LaneGraph::Link> successors = graph_.successors(place.lane);
-  return std::any_of(successors.begin(), successors.end(), [&](const LaneGraph::Link& next) {
-    return isAhead(point, {next.lane, next.entry}, reach - rest, lanes + 1);
-  });
+  if (graph_.length(place.lane) - place.s > reach) return false;
+  std::map<std::pair<LaneIndex, double>, double> open{{{place.lane, place.s}, reach}};  // reach left at each place
+  for (int lanes = 0; lanes < kMaxLanesBehind && !open.empty(); ++lanes) {
+    std::map<std::pair<LaneIndex, double>, double> next;
+    for (const auto& [at, left] : open) {
+      const double rest = left - (graph_.length(at.first) - at.second);
+      if (rest < 0.0) continue;
+      for (const LaneGraph::Link& link : graph_.successors(at.first)) {
+        if (link.lane == point.lane && point.s >= link.entry && point.s - link.entry <= rest) return true;
+        double& most = next.try_emplace({link.lane, link.entry}, rest).first->second;
+        most = std::max(most, rest);
+      }
+    }
+    open = std::move(next);
+  }
+  return false;
 }
 
 void LabelSearch::follow(std::int32_t index, const SearchLabel& label) {
@@ -122,8 +135,10 @@ void LabelSearch::change(std::int32_t index, const Neighbour& neighbour, double 
       std::max(params_.lane_change_price, kLeastChangePrice) + kLateChangePrice * work_.labels[index].distance;
   const double length = rule_ == ChangeRule::kWithoutRoom ? 0.0 : std::max(params_.min_lane_change_length, need);
   const LaneIndex lane = work_.labels[index].lane;
+  crossed_.clear();
   cross(index, neighbour, old_s, new_part, {lane, length, length, price, 0});
   if (need >= length) return;
+  crossed_.clear();
   cross(index, neighbour, old_s, new_part, {lane, need, need, price + params_.tight_lane_change_price, 0});
 }
 
@@ -153,7 +168,20 @@ void LabelSearch::cross(std::int32_t index, const Neighbour& neighbour, double o
   if (new_part.to < neighbour.pair.b_to - kSamePlace || crossing.pieces == kMaxChangePieces) return;
   crossing.rest -= room;
   ++crossing.pieces;
+  if (!isCrossedAnew(neighbour.pair, crossing)) return;
   crossOn(store(label), neighbour.pair, crossing);
+}
+
+/// Lanes that part and join again lead to the same pair on many ways; those as far on as an earlier one add nothing.
+bool LabelSearch::isCrossedAnew(const LanePair& pair, const Crossing& crossing) {
+  const auto isAlike = [&](const CrossedPair& crossed) {
+    return crossed.old_lane == crossing.old_lane && crossed.new_lane == pair.b &&
+           std::abs(crossed.length - crossing.length) < kSamePlace &&
+           std::abs(crossed.rest - crossing.rest) < kSamePlace;
+  };
+  if (crossed_.size() == kMaxCrossedPairs || std::any_of(crossed_.begin(), crossed_.end(), isAlike)) return false;
+  crossed_.push_back({crossing.old_lane, pair.b, crossing.length, crossing.rest});
+  return true;
 }
 
 /// The pair of lanes ends at label `index`, before the change is done: on to the pairs that follow.

@@ -72,7 +72,15 @@ class LabelSearch {
     int pieces;
   };
 
+  /// A pair of lanes that the change being looked at has come to.
+  struct CrossedPair {
+    LaneIndex old_lane;
+    LaneIndex new_lane;
+    double length, rest;  ///< as in Crossing
+  };
+
   void add(SearchLabel label);
+  bool isCrossedAnew(const LanePair& pair, const Crossing& crossing);
   std::int32_t store(const SearchLabel& label);
   void enqueue(std::int32_t index);
   double leastRest(const SearchLabel& label);
@@ -80,7 +88,7 @@ class LabelSearch {
   void expand(std::int32_t index);
   void arrive(std::int32_t index, const SearchLabel& label);
   void arrive(std::int32_t index, const SearchLabel& label, std::int32_t target, double s);
-  bool isAhead(const LanePoint& point, const LanePoint& place, double reach, int lanes) const;
+  bool isAhead(const LanePoint& point, const LanePoint& place, double reach) const;
   void follow(std::int32_t index, const SearchLabel& label);
   void change(std::int32_t index, const SearchLabel& label, const Neighbour& neighbour);
   void change(std::int32_t index, const Neighbour& neighbour, double old_s, const Interval& new_part);
@@ -97,6 +105,7 @@ class LabelSearch {
   const CancelToken& cancel_;
   SearchWorkspace& work_;
   std::optional<GoalDistances> distances_;
+  std::vector<CrossedPair> crossed_;
   std::size_t reached_lanes_ = 0;
 };
 

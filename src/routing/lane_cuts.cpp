@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kShare = 0.5;          // of what the vehicle can do that a calm place may ask for
 constexpr double kApart = 25.0;         // [m]
+constexpr double kLongestLane = 20e3;   // a longer one is looked at only where it is driven [m]
 constexpr double kInnerSpacing = 0.05;  // beside a boundary that is kept, at least [m]
 
 class CalmStretches {
@@ -90,7 +91,8 @@ class CalmStretches {
 }  // namespace
 
 LaneCuts laneCuts(const PathMaking& making, LaneIndex lane) {
-  if (making.map.lane(lane).length() < 2.0 * kSectionOverlap) return {};
+  const double length = making.map.lane(lane).length();
+  if (length < 2.0 * kSectionOverlap || length > kLongestLane) return {};
   return CalmStretches(making, lane).cuts();
 }
 

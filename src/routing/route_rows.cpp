@@ -34,6 +34,19 @@ double RouteRow::pieceEndAt(double position) const {
   return end;
 }
 
+LaneRange RouteRow::pointAt(double position) const {
+  double begin = 0.0;
+  for (const LaneRange& piece : pieces) {
+    const double end = begin + lengthOf(piece);
+    if (end > position - kTiny || &piece == &pieces.back()) {
+      const double s = std::clamp(piece.from_s + position - begin, piece.from_s, piece.to_s);
+      return {piece.lane, s, s};
+    }
+    begin = end;
+  }
+  return {};
+}
+
 std::vector<LaneRange> RouteRow::slice(double begin, double end) const {
   std::vector<LaneRange> ranges;
   double piece_begin = 0.0;

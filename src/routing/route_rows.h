@@ -21,6 +21,9 @@ struct RouteRow {
   /// Where the piece ends that holds `position`.
   double pieceEndAt(double position) const;
 
+  /// A piece of no length, there.
+  LaneRange pointAt(double position) const;
+
   /// The pieces between two positions; a piece that is a single point belongs to what ends with it.
   std::vector<LaneRange> slice(double begin, double end) const;
 };

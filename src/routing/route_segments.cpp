@@ -31,6 +31,13 @@ class SegmentWriter {
   std::vector<RouteSegment> segments_;
 };
 
+/// A change between lanes that lie on each other takes no length, but has its place.
+std::vector<LaneRange> lanesBetween(const RouteRow& row, double begin, double end) {
+  std::vector<LaneRange> lanes = row.slice(begin, end);
+  if (lanes.empty()) lanes.push_back(row.pointAt(begin));
+  return lanes;
+}
+
 }  // namespace
 
 std::vector<RouteSegment> toSegments(const HdMap& map, const Route& route) {
@@ -43,8 +50,8 @@ std::vector<RouteSegment> toSegments(const HdMap& map, const Route& route) {
     const RouteRow &row = rows[r], &next = rows[r + 1];
     done = next.pieceEndAt(next.onto);
     if (next.change != LaneChange::kNone) done = std::min(done, next.leave);
-    writer.add(
-        {{row.slice(row.leave, row.length), false, row.change}, {next.slice(0.0, done), true, LaneChange::kNone}});
+    writer.add({{lanesBetween(row, row.leave, row.length), false, row.change},
+                {lanesBetween(next, 0.0, done), true, LaneChange::kNone}});
   }
   return writer.take();
 }
