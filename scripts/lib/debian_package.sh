@@ -72,6 +72,6 @@ ec_build_deb() {
     DEB_BUILD_OPTIONS="noautodbgsym parallel=$(ec_jobs)" DEB_CXXFLAGS_STRIP=-g DEB_CFLAGS_STRIP=-g \
       dpkg-buildpackage --build=binary --no-sign) >"$log" 2>&1 ||
     { tail -n 40 "$log" >&2 && ec_fail "dpkg-buildpackage failed; all it said is in $log"; }
-  mv "$EC_BUILD_DIR"/package/*.deb "$1/"
+  [ "$EC_BUILD_DIR/package" -ef "$1" ] || mv "$EC_BUILD_DIR"/package/*.deb "$1/"
   (cd "$1" && ls -t "$PWD"/*.deb | head -n 1)
 }

@@ -6,6 +6,7 @@ display where there is none), sends the command, prints progress until it has FI
 """
 import argparse
 import os
+import shlex
 import signal
 import sys
 
@@ -98,7 +99,7 @@ def keep(stack, build_dir, drive):
     print(f"""
 Everything is left running. To speak to it:
   export ROS_MASTER_URI={stack.master_uri} ROS_HOSTNAME=localhost
-  source {build_dir}/devel/setup.bash
+  source {shlex.quote(build_dir + "/devel/setup.bash")}
   rosservice list /apollo/external_command
   rosservice call /apollo/external_command/lane_follow "command: {{end_pose: {{{back}}}}}"   # back to the start
 README.md has an example of each service. To end it: scripts/demo --stop""")

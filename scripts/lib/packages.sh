@@ -77,9 +77,10 @@ ec_install() {
     wanted=("${EC_NOETIC_BUILD_PACKAGES[@]}" "${EC_NOETIC_RUN_PACKAGES[@]}" "${EC_NOETIC_TEST_PACKAGES[@]}")
   fi
   wanted+=("${EC_SCREEN_PACKAGES[@]}" "$(ec_qt_package)" "$@")
-  local missing
-  mapfile -t missing < <(ec_missing_packages "${wanted[@]}")
-  [ "${#missing[@]}" -gt 0 ] || return 0
+  local found missing
+  found=$(ec_missing_packages "${wanted[@]}") || exit 1
+  [ -n "$found" ] || return 0
+  mapfile -t missing <<<"$found"
   echo "${#missing[@]} of ${#wanted[@]} system packages are missing: ${missing[*]}"
   ec_apt_get "${missing[@]}"
 }

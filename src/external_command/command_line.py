@@ -21,10 +21,17 @@ EXIT_CODES = """exit code:
 """
 
 
+def _seconds(text):
+    value = float(text)
+    if not value > 0.0:
+        raise argparse.ArgumentTypeError("it must be above 0")
+    return value
+
+
 def make_parser():
     everywhere = argparse.ArgumentParser(add_help=False, argument_default=argparse.SUPPRESS)
     everywhere.add_argument("--ns", help="namespace of the vehicle (default: apollo)")
-    everywhere.add_argument("--timeout", type=float, metavar="S", help="for a service to be there (default: 5)")
+    everywhere.add_argument("--timeout", type=_seconds, metavar="S", help="for a service to be there (default: 5)")
     everywhere.add_argument("--json", action="store_true", help="print JSON, an object on each line")
     parser = argparse.ArgumentParser(
         description="Sends a command to the external_command services and prints the answer.", epilog=EXIT_CODES,

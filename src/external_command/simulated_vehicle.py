@@ -126,6 +126,7 @@ class SimulatedVehicleNode:
         self._seen = identity
         if command.is_motion_command:
             self._motion_stamp = command.header.stamp
+        self._started = min(self._started, rospy.Time.now())  # simulated time may have been set back
         age = (self._started - command.header.stamp).to_sec()
         if not command.header.stamp.is_zero() and age > self._settings.max_command_age:
             text = ("the command was sent %.1f s before this vehicle started; the limit is %.1f s (~max_command_age): "

@@ -89,6 +89,7 @@ class PlannerStub:
             self._seen = identity
             if not command.is_motion_command:  # for who starts later; it stops nobody
                 return
+            self._started = min(self._started, rospy.Time.now())  # simulated time may have been set back
             if (self._started - command.header.stamp).to_sec() > MAX_AGE:
                 self._report(command.command_id, CommandStatus.ERROR, "sent long before this planner started")
                 return

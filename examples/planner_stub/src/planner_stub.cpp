@@ -85,7 +85,8 @@ class PlannerStub {
     if (command.command_id == seen_id_ && command.header.stamp == seen_stamp_) return;
     seen_id_ = command.command_id;
     seen_stamp_ = command.header.stamp;
-    if (!command.is_motion_command) return;  // for who starts later; it stops nobody
+    if (!command.is_motion_command) return;           // for who starts later; it stops nobody
+    started_ = std::min(started_, ros::Time::now());  // simulated time may have been set back
     if ((started_ - command.header.stamp).toSec() > kMaxAge) {
       return report(command.command_id, ec::CommandStatus::ERROR, "sent long before this planner started");
     }
@@ -185,7 +186,7 @@ class PlannerStub {
   ros::Subscriber command_, pad_, speed_;
   ros::SteadyTimer timer_;
 
-  const ros::Time started_ = ros::Time::now();
+  ros::Time started_ = ros::Time::now();
   std::int64_t seen_id_ = 0;
   ros::Time seen_stamp_;
   std::int64_t command_id_ = 0;               // of the motion command that is driven
