@@ -27,7 +27,7 @@ struct CoverageParams {
   double target_coverage = 0.993;  ///< of the reachable area; beyond it, only what costs little is swept, [0.5, 1]
   double max_gap = 4.0;  ///< a connected piece that could be swept and is larger than so many squares of swath_width is
                          ///< swept too, where a way leads there, for at most 2 % more length; 0: none, [0, 1e6]
-  double gear_change_cost = 3.0;  ///< price of a gear change: what the vehicle would drive in the time that it
+  double gear_change_cost = 4.0;  ///< price of a gear change: what the vehicle would drive in the time that it
                                   ///< takes to stop and to change, not negative [m]
   bool reverse_to_turn = true;    ///< false: what only reversing leads to is left out, but for laps that are wished
   double spacing = 1.0;           ///< between points of the path, at most, [0.05, 100] [m]

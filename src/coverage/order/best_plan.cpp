@@ -12,11 +12,11 @@ namespace external_command {
 
 namespace {
 
-constexpr double kTimeForTrying = 0.4;    ///< share of the budget after which no further plan is tried
-constexpr double kTimeForSettling = 0.7;  ///< the same for settling one
-constexpr double kHole = 60.0;            ///< squares of a swath's width that take as long to plan as a hole
-constexpr double kSmallHole = 20.0;       ///< the same of one that swaths bend round
-constexpr double kEqual = 1e-9;           ///< plans with costs as near as that are the same
+constexpr double kTimeForTrying = 0.4;     ///< share of the budget after which no further plan is tried
+constexpr double kTimeForSettling = 0.65;  ///< the same for settling one
+constexpr double kHole = 60.0;             ///< squares of a swath's width that take as long to plan as a hole
+constexpr double kSmallHole = 20.0;        ///< the same of one that swaths bend round
+constexpr double kEqual = 1e-9;            ///< plans with costs as near as that are the same
 
 /// How much is tried: the less, the longer one plan takes.
 struct Effort {

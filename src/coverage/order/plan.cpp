@@ -16,12 +16,12 @@ namespace {
 
 constexpr double kDear = 12.0;  ///< price of a square metre, times the width, for which the last swaths are looked for
 constexpr int kMostDead = 10;   ///< rounds of leaving out what no way leads to
-constexpr double kTimeForChanges = 0.7;  ///< share of the budget after which a plan is settled as it is
-constexpr double kTimeForGaps = 0.8;     ///< the same for the gaps
-constexpr double kMoreForGaps = 0.02;    ///< of length, as share
-constexpr int kRounds = 4;               ///< of swaths for what is left
-constexpr double kCheapTurn = 0.3;       ///< price of a turn in their search, in radii: the tour knows the real one
-constexpr double kGapTurn = 3.0;         ///< the same in the search for swaths in a gap: a strip is not swept across
+constexpr double kTimeForChanges = 0.65;  ///< share of the budget after which a plan is settled as it is
+constexpr double kTimeForGaps = 0.72;     ///< the same for the gaps
+constexpr double kMoreForGaps = 0.02;     ///< of length, as share
+constexpr int kRounds = 4;                ///< of swaths for what is left
+constexpr double kCheapTurn = 0.3;        ///< price of a turn in their search, in radii: the tour knows the real one
+constexpr double kGapTurn = 3.0;          ///< the same in the search for swaths in a gap: a strip is not swept across
 
 class Planner {
  public:
