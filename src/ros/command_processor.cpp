@@ -27,6 +27,12 @@ StartFailures& startFailures() {
   return failures;
 }
 
+/// A signal breaks off what is being asked of the master a moment before roscpp knows that it must end.
+bool isEnding() {
+  for (int i = 0; i < 20 && !ros::isShuttingDown(); ++i) ros::WallDuration(0.01).sleep();
+  return ros::isShuttingDown();
+}
+
 /// Others may read parameters without a ParameterReader.
 bool isOfThisPackage(const CommandProcessor& processor) {
   return boost::core::demangle(typeid(processor).name()).rfind("external_command::", 0) == 0;
@@ -54,7 +60,7 @@ void CommandProcessor::onInit() {
   if (reason.empty()) return;
   // nodelet tells nothing of what onInit throws, or ends the process where it is no std::exception. The library that
   // the original exception comes from may be closed before the exception is destroyed, so another one goes on.
-  if (ros::isShuttingDown()) {
+  if (isEnding()) {
     ROS_WARN_STREAM(getName() << " was told to shut down while it was starting: " << reason);
   } else {
     ROS_FATAL_STREAM(getName() << " cannot start: " << reason);

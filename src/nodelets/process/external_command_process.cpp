@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
   ros::removeROSArgs(argc, argv, arguments);
   const bool has_component = arguments.size() < 2 || arguments[1] != "--manager";
   const std::string obstacle = whyNot(name, has_component);
+  if (ec::mustEnd()) return 0;  // a signal breaks off what is being asked of the master, too
   if (!obstacle.empty()) {
     ROS_FATAL_STREAM(name << " cannot start: " << obstacle);
     return giveUp(obstacle, &failures);
