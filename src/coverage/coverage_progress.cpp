@@ -54,9 +54,10 @@ class LineCheck {
       if (!(std::abs(arc.kappa) <= most)) {
         throw InvalidRequest(text(who, " bends by ", arc.kappa, " 1/m, the vehicle by ", most, " at most"));
       }
-      const double longest = arc.kappa == 0.0 ? size_.norm() : 2.0 * M_PI / std::abs(arc.kappa);
+      const double longest = std::min(2.0 * M_PI / std::abs(arc.kappa), M_PI * size_.norm());  // that stays in the area
       if (!(std::abs(arc.length) <= kBendSlack * longest)) {
-        throw InvalidRequest(text(who, " has an arc of ", arc.length, " m, longer than the area or than a circle"));
+        throw InvalidRequest(
+            text(who, " has an arc of ", arc.length, " m, longer than the ", longest, " m that fit into such an area"));
       }
       rest_ -= std::abs(arc.length);
       if (!(rest_ >= 0.0)) throw InvalidRequest(text(who, " makes the swaths longer than such an area needs"));

@@ -73,7 +73,7 @@ std::shared_ptr<const SentMotion> CommandGate::commit(const Ticket& ticket, std:
   requireNewestLocked(ticket.command_);
   ticket.cancelToken().throwIfCancelled();
   publish();
-  if (motion_ && motion_->topics && motion->topics) motion->topics->replace(motion_->topics.get());
+  if (motion_ && motion_->topics && motion->topics) motion->topics->replace(*motion_->topics);
   last_motion_ = ticket.command_.serial;
   unshown_.push_back(motion);
   if (unshown_.size() > kMostUnshown) unshown_.pop_front();

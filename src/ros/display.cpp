@@ -24,15 +24,15 @@ using visualization_msgs::MarkerArray;
 constexpr double kCommandPeriod = 0.05;  // [s]
 constexpr double kMapPeriod = 0.5;       // between two looks at where the vehicle is [s]
 constexpr double kIdsPeriod = 3.0;       // [s]
+constexpr double kSmallestRing = 1.5;    // radius, in lengths of the vehicle
+constexpr double kLargestRing = 25.0;    // [m]
+constexpr double kRingShare = 0.02;      // of what is drawn of the map
 
 /// roscpp would make the bytes while it holds a lock that every publisher of the process waits for, that of a stop too;
 /// these are drawn on a thread of low priority.
 void sendPrepared(const ros::Publisher& publisher, const MarkerArray& array) {
   PreparedMessage(publisher, array).send();
 }
-constexpr double kSmallestRing = 1.5;  // radius, in lengths of the vehicle
-constexpr double kLargestRing = 25.0;  // [m]
-constexpr double kRingShare = 0.02;    // of what is drawn of the map
 
 ros::NodeHandle onQueue(ros::NodeHandle nh, ros::CallbackQueueInterface* queue) {
   nh.setCallbackQueue(queue);

@@ -39,13 +39,13 @@ std::vector<PreparedMessage> MotionTopics::view() const {
   return messages;
 }
 
-void MotionTopics::replace(MotionTopics* earlier) {
-  ends_route_ = !route_ && !earlier->is_withdrawn_ && (earlier->route_ || earlier->ends_route_);
-  if (earlier->is_withdrawn_) return;
-  for (const ros::Publisher& publisher : earlier->publishers_.commands) {
+void MotionTopics::replace(const MotionTopics& earlier) {
+  if (earlier.is_withdrawn_) return;
+  ends_route_ = !route_ && (earlier.route_ || earlier.ends_route_);
+  for (const ros::Publisher& publisher : earlier.publishers_.commands) {
     const auto isTheSame = [&](const ros::Publisher& own) { return own.getTopic() == publisher.getTopic(); };
     const auto& own = publishers_.commands;
-    if (std::none_of(own.begin(), own.end(), isTheSame)) publisher.publish(earlier->withdrawal());
+    if (std::none_of(own.begin(), own.end(), isTheSame)) publisher.publish(earlier.withdrawal());
   }
 }
 

@@ -90,6 +90,10 @@ TEST(CoverageProgress, IsRefusedWithANumberThatCannotBe) {
       {"swath 1 leaves the area", [](P* p) { p->lines[1].arcs[0].length = 40.0; }},
       {"longer than", [](P* p) { p->lines[1].arcs[0].length = 1e12; }},
       {"longer than", [](P* p) { p->lines[1].arcs[0].length = kNan; }},
+      {"longer than the",
+       [](P* p) {
+         p->lines[1].arcs[0] = {1000.0, 2.0 * M_PI / 1000.0};
+       }},
       {"longer than", [](P* p) { p->lines[0].arcs[1].length = 1e4 * 2.0 * M_PI * 5.0; }},
       {"swath 0 bends by", [](P* p) { p->lines[0].arcs[1].kappa = 2.0; }},
       {"swath 0 bends by", [](P* p) { p->lines[0].arcs[1].kappa = kNan; }},

@@ -130,6 +130,24 @@ TEST_F(Cancel, LeavesAPlanAloneWhereANewerCommandIsRefused) {
   EXPECT_EQ(planned.get().status, CommandStatus::RUNNING);
 }
 
+TEST_F(Cancel, WithdrawsAMotionFromTheTopicThatTheNextOneDoesNotUse) {
+  ros::param::set(ros::names::resolve("follower") + "/output_command_name", std::vector<std::string>{"other/command"});
+  ASSERT_TRUE(load("follower", "external_command/PathFollowCommandProcessor"));
+  ASSERT_TRUE(ros::service::waitForService("external_command/path_follow", 10000));
+  Inbox<PlanningCommand> commands("planning/command");
+  Inbox<PlanningCommand> others("other/command");
+  const CommandStatus first = drive(7);
+  PathFollow next;
+  next.request.command.way_point.resize(2);
+  next.request.command.way_point[1].x = 10.0;
+  ASSERT_TRUE(ros::service::call("external_command/path_follow", next));
+  EXPECT_EQ(next.response.status.status, CommandStatus::RUNNING) << next.response.status.message;
+  ASSERT_TRUE(others.waitFor(1, isMotion));
+  ASSERT_TRUE(commands.waitFor(1, isWithdrawal));
+  EXPECT_EQ(commands.messages().back().command_id, first.command_id);
+  EXPECT_FALSE(commands.messages().back().is_motion_command) << "who subscribes later must not drive it";
+}
+
 TEST_F(Cancel, LeavesNoActionRunningWhoseProcessorIsUnloaded) {
   ASSERT_TRUE(load("action", "external_command/ActionCommandProcessor"));
   ASSERT_TRUE(ros::service::waitForService("external_command/action", 10000));

@@ -30,7 +30,7 @@ class MotionTopics {
 
   /// Takes the place of `earlier`, which is withdrawn where this one has nothing to put in its place: on the topics of
   /// other processors, and as route. To be called before view().
-  void replace(MotionTopics* earlier);
+  void replace(const MotionTopics& earlier);
 
   /// What follows a command that was sent: its route, and its path for ordinary ROS controllers and rviz.
   std::vector<PreparedMessage> view() const;

@@ -15,7 +15,6 @@ namespace external_command {
 namespace {
 
 constexpr double kTick = 0.02;  // of time-outs and repeated tries [s]
-constexpr const char* kUnloaded = "it was sent, but its processor was unloaded before anything showed its end";
 
 const std::map<std::uint8_t, std::uint8_t> kPlanningPads = {
     {ActionCommand::FOLLOW, PlanningPad::FOLLOW},
@@ -50,10 +49,8 @@ ActionCommandProcessor::~ActionCommandProcessor() {
   }
   watch_executor_.stop();
   if (!pending_) return;
-  record(pending_->giveUp(kUnloaded));
-  if (!switch_) return;
-  context().registry().update(
-      {switch_->command.serial, makeStatus(switch_->command.id, CommandStatus::UNKNOWN, ErrorCode::kOk, kUnloaded)});
+  record(pending_->giveUp());
+  if (switch_) context().registry().update({switch_->command.serial, unloaded(switch_->command.id)});
 }
 
 void ActionCommandProcessor::start() {

@@ -37,7 +37,7 @@ struct PendingActionParams {
 ///
 ///   FOLLOW, CHANGE_*, *_MISSION   a report of the planner, or a scenario that shows it
 ///   STOP, PULL_OVER               a scenario that shows it, and a report that it is finished
-///   START                         a vehicle that was seen standing, and then moves
+///   START                         a vehicle that was seen standing, or not at all, and then moves
 ///   VIN_REQ                       a chassis that reports a vin
 ///
 /// A motion command that is sent after a STOP or PULL_OVER supersedes it.
@@ -63,8 +63,8 @@ class PendingActions {
   Changes onChassis(const Chassis& chassis);
   Changes onTime(double now);
 
-  /// What is pending is waited for no longer, whatever becomes of it.
-  Changes giveUp(const std::string& why) { return endAll(&pending_, why); }
+  /// What is pending is waited for no longer: the processor is unloaded.
+  Changes giveUp() { return endAll(&pending_); }
 
   bool empty() const { return pending_.empty(); }
 

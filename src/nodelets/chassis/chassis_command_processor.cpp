@@ -54,7 +54,7 @@ ChassisCommandProcessor::ChassisCommandProcessor()
 ChassisCommandProcessor::~ChassisCommandProcessor() {
   stopServing();
   watch_executor_.stop();
-  if (pending_) record(pending_->giveUp("it was sent, but its processor was unloaded before anything showed its end"));
+  if (pending_) record(pending_->giveUp());
 }
 
 void ChassisCommandProcessor::start() {

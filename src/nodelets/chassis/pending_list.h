@@ -2,8 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -26,12 +26,17 @@ std::vector<StatusChange> endWhere(std::vector<Pending>* pending, const End& end
   return ended;
 }
 
-/// Nobody waits for any of them any more: their ends will not be known.
+/// The status of a command whose end nobody waits for any more.
+inline CommandStatus unloaded(std::int64_t command_id) {
+  return makeStatus(command_id, CommandStatus::UNKNOWN, ErrorCode::kOk,
+                    "it was sent, but its processor was unloaded before anything showed its end");
+}
+
+/// Their processor is unloaded.
 template <class Pending>
-std::vector<StatusChange> endAll(std::vector<Pending>* pending, const std::string& why) {
-  return endWhere(pending, [&](const Pending& item) -> std::optional<CommandStatus> {
-    return makeStatus(item.command.id, CommandStatus::UNKNOWN, ErrorCode::kOk, why);
-  });
+std::vector<StatusChange> endAll(std::vector<Pending>* pending) {
+  return endWhere(pending,
+                  [](const Pending& item) -> std::optional<CommandStatus> { return unloaded(item.command.id); });
 }
 
 /// Drops those whose command has ended another way: `is_running(serial)` is false.

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <string>
 #include <vector>
 
 #include "external_command/VehicleSignal.h"
@@ -34,8 +33,8 @@ class PendingSignals {
   Changes onChassis(const VehicleSignal& reported);
   Changes onTime(double now);
 
-  /// What is pending is waited for no longer, whatever becomes of it.
-  Changes giveUp(const std::string& why) { return endAll(&pending_, why); }
+  /// What is pending is waited for no longer: the processor is unloaded.
+  Changes giveUp() { return endAll(&pending_); }
 
   bool empty() const { return pending_.empty(); }
 
