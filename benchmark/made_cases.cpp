@@ -40,7 +40,8 @@ class CaseMaker {
     for (const double distance : {100.0, 560.0}) addPlain(distance);
     addDenseObstacles();
     for (const double slack : {0.3, 0.1, -0.02, -0.4}) addGap(slack);
-    for (const double width : {6.0, 4.2}) addTurn(width);
+    for (const double width : {6.0, 4.2, 5.3}) addTurn(width);
+    for (const double width : {4.0, 3.4, 2.7}) addTee(width);
     return std::move(cases_);
   }
 
@@ -277,6 +278,16 @@ class CaseMaker {
     }
     for (const double x : {-40.0, 40.0 - kWall}) box(x, -0.5 * width, x + kWall, 0.5 * width);
     end(-40.0, -0.5 * width, 40.0, 0.5 * width);
+  }
+
+  /// Round and back in a street by way of a blind alley, both as wide.
+  void addTee(double width) {
+    const double depth = width + 8.0;
+    begin(text("tee_", width), car(), {-14.0, 0.5 * width, 0.0}, {-14.0, 0.5 * width, M_PI});
+    wallsAround(-30.0, 0.0, 30.0, depth);
+    box(-30.0, width, -0.5 * width, depth);
+    box(0.5 * width, width, 30.0, depth);
+    end(-30.0, 0.0, 30.0, depth);
   }
 
   std::mt19937 engine_;

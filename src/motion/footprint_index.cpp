@@ -301,7 +301,6 @@ double FootprintIndex::freeLength(const Pose2d& from, const ArcSegment& arc, dou
   return length;
 }
 
-/// As freeRadius(), but exact up to kBeyond.
 double FootprintIndex::exactRoom(const Frame& frame) const {
   const double bound = freeRadius(frame);
   if (bound != 0.0) return bound;

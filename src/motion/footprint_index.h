@@ -77,6 +77,9 @@ class FootprintIndex {
   /// bound of how far every corner can move before it does [m]; often 0.
   double freeRadius(const Frame& frame) const;
 
+  /// As freeRadius(), but beside obstacles it is the distance itself, up to kBeyond [m].
+  double exactRoom(const Frame& frame) const;
+
   bool isFree(const Pose2d& pose) const { return freeRadius(Frame(pose)) >= 0.0; }
 
   /// How far [m] `arc` can be driven from `from` with every checked pose free; the whole length if nothing is in the
@@ -167,7 +170,6 @@ class FootprintIndex {
   long cellAt(double x, double y) const;
   Point2d cellCentre(long column, long row) const;
   bool edgesAreClear(long cell, const Frame& frame, double cx, double cy) const;
-  double exactRoom(const Frame& frame) const;
   double exactDistance(const HalfEdge& edge, const Frame& frame, double cx, double cy) const;
 
   LocalObstacles obstacles_;

@@ -45,6 +45,17 @@ TEST(LongWays, AreFoundThroughManyGatesAndBetweenManyPosts) {
   }
 }
 
+TEST(TightPlaces, AreShuffledThrough) {
+  for (const char* name : {"tee_3.4", "turn_5.3"}) {
+    const ParkingCase task = madeCase(name);
+    const FreeSpacePlan result = planned(task);
+    EXPECT_TRUE(joins(result.path, task.start, task.goal)) << name;
+    EXPECT_TRUE(isDrivable(result.path, task.vehicle)) << name;
+    EXPECT_TRUE(staysClear(result.path, task.vehicle, task.region, 0.008)) << name;
+    EXPECT_GT(result.gear_changes, 8U) << name;
+  }
+}
+
 TEST(LongWays, GetCheaperWithMoreWork) {
   const ParkingCase task = madeCase("lot_100x60_100");
   FreeSpaceParams params = quickParams();

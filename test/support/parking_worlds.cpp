@@ -78,6 +78,19 @@ ParkingWorld twoYards(double gap, const VehicleParams& vehicle) {
                  parkedAt({1.6 * side, 0.3 * side}, -0.5, vehicle), std::move(parts));
 }
 
+ParkingWorld street(double width, const VehicleParams& vehicle) {
+  Region::Parts parts;
+  for (const double side : {-1.0, 1.0})
+    parts.non_drivable.push_back(box({0.0, side * (width + 1.0) / 2.0}, 100.0, 1.0));
+  return worldOf(vehicle, {-10.0, 0.0, 0.0}, {10.0, 0.0, M_PI}, std::move(parts));
+}
+
+ParkingWorld corner(double width, const VehicleParams& vehicle) {
+  Region::Parts parts;
+  parts.drivable = Polygon({{-40.0, 0.0}, {width, 0.0}, {width, 40.0}, {0.0, 40.0}, {0.0, width}, {-40.0, width}}, "");
+  return worldOf(vehicle, {-15.0, width / 2.0, 0.0}, {width / 2.0, 15.0, M_PI_2}, std::move(parts));
+}
+
 ParkingWorld moved(const ParkingWorld& world, const Pose2d& frame) {
   Region::Parts parts;
   if (world.region.drivable()) parts.drivable = moved(*world.region.drivable(), frame);

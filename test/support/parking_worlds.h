@@ -44,6 +44,12 @@ ParkingWorld bay(double gap, const VehicleParams& vehicle = smallCar());
 ///   +---------+---------+
 ParkingWorld twoYards(double gap, const VehicleParams& vehicle = smallCar());
 
+/// Between two walls of 100 m, `width` [m] apart; to turn round, and go on 20 m behind.
+ParkingWorld street(double width, const VehicleParams& vehicle = smallCar());
+
+/// From the left into a corridor that leads up; both are `width` [m] wide.
+ParkingWorld corner(double width, const VehicleParams& vehicle = smallCar());
+
 /// The world in another frame.
 ParkingWorld moved(const ParkingWorld& world, const Pose2d& frame);
 

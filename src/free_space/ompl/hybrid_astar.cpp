@@ -7,6 +7,7 @@
 
 #include "first_path.h"
 #include "free_space/search/narrow_passage.h"
+#include "free_space/search/shuffle_search.h"
 #include "free_space/search/tight_turn.h"
 #include "free_space/search/way_pose_search.h"
 #include "ompl_space.h"
@@ -17,7 +18,9 @@ namespace ob = ompl::base;
 
 namespace {
 
-constexpr double kLongWay = 8.0;  ///< from which way poses are tried, in turning radii
+constexpr double kLongWay = 8.0;             ///< from which way poses are tried, in turning radii
+constexpr std::size_t kSecondLook = 30'000;  ///< steps without a path that tell of a tight place ...
+constexpr std::size_t kTightEnd = 3;         ///< ... at that end whose tree has come to this level, else between them
 
 }  // namespace
 
@@ -44,7 +47,8 @@ ob::PlannerStatus HybridAStar::solve(const ob::PlannerTerminationCondition& stop
 }
 
 /// A little of the search itself, which suffices nearly always; then, unless something is too tight for the
-/// vehicle, over way poses; then the search to its end.
+/// vehicle, over way poses; then more of the search, shuffling where the tight place lies between start and goal, and
+/// the search to its end: out of a tight end it finds a cheaper way than shuffling does.
 std::optional<Arcs> HybridAStar::search(const std::function<bool()>& stop) {
   const auto runFor = [&](std::size_t steps) {
     outcome_ = search_.run({}, {steps, std::numeric_limits<double>::infinity(), stop});
@@ -62,6 +66,15 @@ std::optional<Arcs> HybridAStar::search(const std::function<bool()>& stop) {
     if (over_way_poses.run(stop)) {
       outcome_ = TwoWaySearch::Outcome::kFound;
       return over_way_poses.arcs();
+    }
+  }
+  if (runFor(std::min(kSecondLook, max_steps_))) return search_.arcs();
+  if (outcome_ != TwoWaySearch::Outcome::kOutOfSteps || max_steps_ <= kSecondLook) return std::nullopt;
+  if (search_.finestLevel() < kTightEnd) {
+    ShuffleSearch shuffling(scene_, query_, area_);
+    if (shuffling.run(stop)) {
+      outcome_ = TwoWaySearch::Outcome::kFound;
+      return shuffling.arcs();
     }
   }
   return runFor(max_steps_) ? std::optional<Arcs>(search_.arcs()) : std::nullopt;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace external_command {
 
@@ -13,8 +12,6 @@ namespace {
 constexpr double kCheckStep = 0.06;     ///< most that a corner moves between two checks of the search [m]
 constexpr double kShortestStep = 0.15;  ///< of a stride: shorter ways to an obstacle are no step
 constexpr double kRootRange = 3.0;      ///< how far the arcs at a root are followed, in turning radii
-constexpr std::uint64_t kNoKey = ~0ULL;
-constexpr std::size_t kFirstTable = 4096;  ///< a power of two, like all sizes of the table
 
 }  // namespace
 
@@ -44,8 +41,7 @@ void SearchTree::restart(const SearchLevel& level) {
   level_ = level;
   nodes_.clear();
   queue_.clear();
-  keys_.assign(kFirstTable, kNoKey);
-  values_.assign(kFirstTable, -1);
+  by_cell_.clear();
   advanced_ = 0;
   Node root{root_, {}, 0.0, 0.0, map_.at(root_.x, root_.y), -1, root_gear_};
   root.arrival = Arrival::kFree;
@@ -59,33 +55,7 @@ void SearchTree::push(int node) {
 }
 
 std::uint64_t SearchTree::keyOf(const Pose2d& pose, int gear) const {
-  const auto cell = [&](double value) {
-    return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(value / level_.cell + level_.shift)) +
-                                      (1 << 20));
-  };
-  const double turns = 2.0 * M_PI / level_.heading_cell;
-  const auto heading = static_cast<std::uint64_t>(
-      std::llround((pose.heading / (2.0 * M_PI) + 1.0) * turns + level_.shift) % std::llround(turns));
-  return (cell(pose.x) & 0x1FFFFF) << 40 | (cell(pose.y) & 0x1FFFFF) << 19 | heading << 1 | (gear > 0 ? 1U : 0U);
-}
-
-int* SearchTree::slotOf(std::uint64_t key) {
-  const std::size_t mask = keys_.size() - 1;
-  std::size_t i = (key * 0x9E3779B97F4A7C15ULL >> 32) & mask;
-  while (keys_[i] != kNoKey && keys_[i] != key) i = (i + 1) & mask;
-  keys_[i] = key;
-  return &values_[i];
-}
-
-void SearchTree::growTable() {
-  if (nodes_.size() * 2 < keys_.size()) return;
-  const std::vector<std::uint64_t> keys = std::move(keys_);
-  const std::vector<int> values = std::move(values_);
-  keys_.assign(keys.size() * 2, kNoKey);
-  values_.assign(keys.size() * 2, -1);
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    if (keys[i] != kNoKey) *slotOf(keys[i]) = values[i];
-  }
+  return cellOf(pose, level_.cell, level_.heading_cell, level_.shift) | (gear > 0 ? 1U : 0U);
 }
 
 std::optional<Connection> SearchTree::step(SearchTree* other, double* max_cost) {
@@ -207,15 +177,15 @@ void SearchTree::addChild(int parent_index, const ArcSegment& arc, double max_co
   const double rank = parent.rank + driving + level_.gear_weight * changing;
   const double h = std::max(map_.at(pose.x, pose.y), parent.h - driving);
   if (!(g + h < max_cost)) return;
-  growTable();
-  int* slot = slotOf(keyOf(pose, gear));
-  if (*slot >= 0) {
-    if (at(*slot).rank <= rank + 1e-6) return;
-    at(*slot).closed = true;
+  const std::uint64_t cell = keyOf(pose, gear);
+  const int other = by_cell_.at(cell), node = static_cast<int>(nodes_.size());
+  if (other != CellNodes::kNone) {
+    if (at(other).rank <= rank + 1e-6) return;
+    at(other).closed = true;
   }
-  *slot = static_cast<int>(nodes_.size());
+  by_cell_.set(cell, node);
   nodes_.push_back({pose, arc, g, rank, h, parent_index, gear});
-  push(*slot);
+  push(node);
 }
 
 Arcs SearchTree::arcsTo(int node) const {

@@ -9,6 +9,7 @@
 
 #include "distance_map.h"
 #include "free_space/manoeuvre.h"
+#include "pose_cells.h"
 
 namespace external_command {
 
@@ -117,8 +118,6 @@ class SearchTree {
   void grow(int node, double max_cost);
   void addChild(int parent, const ArcSegment& arc, double max_cost);
   std::uint64_t keyOf(const Pose2d& pose, int gear) const;
-  int* slotOf(std::uint64_t key);
-  void growTable();
   Node& at(int node) { return nodes_[static_cast<std::size_t>(node)]; }
   const Node& at(int node) const { return nodes_[static_cast<std::size_t>(node)]; }
 
@@ -130,9 +129,8 @@ class SearchTree {
   SearchLevel level_{};
   std::vector<Node> nodes_;
   std::vector<Entry> queue_;
-  std::vector<std::uint64_t> keys_;  ///< hash table with open addressing: cell ...
-  std::vector<int> values_;          ///< ... to node
-  int advanced_ = 0;                 ///< node with the smallest h
+  CellNodes by_cell_;
+  int advanced_ = 0;  ///< node with the smallest h
 };
 
 }  // namespace external_command

@@ -54,7 +54,7 @@ void TwoWaySearch::keep(const Connection& connection, bool from_start) {
 }
 
 TwoWaySearch::Outcome TwoWaySearch::run(const Variant& variant, const Limits& limits) {
-  std::array<std::size_t, 2> levels{variant.first_level, variant.first_level};
+  levels_ = {variant.first_level, variant.first_level};
   const std::array<SearchTree*, 2> trees{&from_start_, &from_goal_};
   for (SearchTree* tree : trees) tree->restart(levelFor(variant.first_level, variant));
   bool found = false;
@@ -71,8 +71,8 @@ TwoWaySearch::Outcome TwoWaySearch::run(const Variant& variant, const Limits& li
     if (limits.stop()) return found ? Outcome::kFound : Outcome::kStopped;
     if (!tree->isExhausted()) continue;
     if (found) return Outcome::kFound;
-    if (levels[side] + 1 < kLevels.size()) {
-      tree->restart(levelFor(++levels[side], variant));
+    if (levels_[side] + 1 < kLevels.size()) {
+      tree->restart(levelFor(++levels_[side], variant));
     } else if (tree->isEmpty()) {
       return Outcome::kNone;
     } else if (other->isExhausted()) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -44,6 +46,10 @@ class TwoWaySearch {
   /// The path found by the last run, from start to goal.
   const Arcs& arcs() const { return arcs_; }
 
+  /// The finest level that one of the ends had come to when the last run ended: high where that end is in a tight
+  /// place, low where the tight place lies between them.
+  std::size_t finestLevel() const { return std::max(levels_[0], levels_[1]); }
+
  private:
   std::size_t sideOf(std::size_t step) const;
   SearchLevel levelFor(std::size_t i, const Variant& variant) const;
@@ -55,6 +61,7 @@ class TwoWaySearch {
   DistanceMap to_start_;
   SearchTree from_start_;
   SearchTree from_goal_;
+  std::array<std::size_t, 2> levels_{};  ///< of the two trees
   Arcs arcs_;
 };
 

@@ -7,38 +7,14 @@
 
 #include "external_command/core/error.h"
 #include "external_command/free_space/free_space_planner.h"
-#include "support/parking_worlds.h"
+#include "search_world.h"
 
 namespace external_command {
 namespace {
 
-const auto kNeverStop = [] { return false; };
-
-BoundingBox areaAround(const ParkingWorld& world) {
-  constexpr double kRoom = 20.0;  // [m]
-  const Point2d room = Point2d::Constant(kRoom);
-  return {world.start.position().cwiseMin(world.goal.position()) - room,
-          world.start.position().cwiseMax(world.goal.position()) + room};
-}
-
-std::optional<TightTurn> tightTurnIn(const ParkingWorld& world, const std::function<bool()>& stop = kNeverStop) {
-  const FootprintIndex index(world.vehicle, 0.0, world.region, {0.0, 0.0}, {world.start, world.goal}, [] {});
-  return tightTurn(index, areaAround(world), world.start, world.goal, stop);
-}
-
-/// Between two walls of 100 m; to turn round, there is their distance.
-ParkingWorld street(double width) {
-  Region::Parts parts;
-  for (const double side : {-1.0, 1.0})
-    parts.non_drivable.push_back(box({0.0, side * (width + 1.0) / 2.0}, 100.0, 1.0));
-  return {smallCar(), {-10.0, 0.0, 0.0}, {10.0, 0.0, M_PI}, Region(parts)};
-}
-
-/// From the left into a corridor that leads up; both are as wide.
-ParkingWorld corner(double width) {
-  Region::Parts parts;
-  parts.drivable = Polygon({{-40.0, 0.0}, {width, 0.0}, {width, 40.0}, {0.0, 40.0}, {0.0, width}, {-40.0, width}}, "");
-  return {smallCar(), {-15.0, width / 2.0, 0.0}, {width / 2.0, 15.0, M_PI_2}, Region(parts)};
+std::optional<TightTurn> tightTurnIn(const ParkingWorld& place, const std::function<bool()>& stop = kNeverStop) {
+  const SearchWorld world(place);
+  return tightTurn(world.index, world.area, place.start, place.goal, stop);
 }
 
 TEST(TightTurn, IsProvedInAStreetThatIsNarrowerThanTheVehicleIsLong) {
