@@ -194,7 +194,9 @@ class Planning {
     // the search alone is for callers that only want to know whether there is a way
     if (params_.planner != "portfolio") return "the finest search found none";
     if (!isTooNarrow(index_, areaOf(query), start, goal, stop)) {
-      const auto turn = tightTurn(index_, areaOf(query), query.start, query.goal, stop);
+      const BoundingBox area = areaOf(query);
+      const DistanceMap to_start(index_, area, query.start), to_goal(index_, area, query.goal);
+      const auto turn = tightTurn(index_, area, query.start, query.goal, {to_start, to_goal}, stop);
       return turn ? described(*turn) : "the finest search found none";
     }
     const auto passage = narrowestPassage(index_, areaOf(query), start, goal, stop);

@@ -23,6 +23,12 @@ BoundingBox emptyBox() { return {Point2d(kInfinity, kInfinity), Point2d(-kInfini
 
 double squared(double a) { return a * a; }
 
+/// Whether the edge of middle (mu, mv) and half (hu, hv) meets the box [-l, l] x [-w, w]: by their separating axes.
+bool boxMeets(double mu, double mv, double hu, double hv, double l, double w) {
+  return std::abs(mu) <= l + std::abs(hu) && std::abs(mv) <= w + std::abs(hv) &&
+         std::abs(mu * hv - mv * hu) <= l * std::abs(hv) + w * std::abs(hu);
+}
+
 /// Squared distance from (u, v) to the box [-l, l] x [-w, w].
 double pointToBox(double u, double v, double l, double w) {
   return squared(std::max(std::abs(u) - l, 0.0)) + squared(std::max(std::abs(v) - w, 0.0));
@@ -248,13 +254,25 @@ bool FootprintIndex::edgesAreClear(long cell, const Frame& frame, double cx, dou
     const double dx = edge.mx - cx, dy = edge.my - cy;
     const double mu = dx * frame.cos + dy * frame.sin, mv = dy * frame.cos - dx * frame.sin;
     const double hu = edge.hx * frame.cos + edge.hy * frame.sin, hv = edge.hy * frame.cos - edge.hx * frame.sin;
-    // separating axes of box and edge
-    if (std::abs(mu) > l + std::abs(hu) || std::abs(mv) > w + std::abs(hv)) continue;
-    if (std::abs(mu * hv - mv * hu) > l * std::abs(hv) + w * std::abs(hu)) continue;
+    if (!boxMeets(mu, mv, hu, hv, l, w)) continue;
     // Near a corner of the grown box the distance may still be kept.
     if (isTooNear(exactDistance(edge, frame, cx, cy), *i)) return false;
   }
   return true;
+}
+
+bool FootprintIndex::meetsEdge(const FootprintBox& part, const Frame& frame) const {
+  const long cell = cellAt(frame.x + box_.centre * frame.cos, frame.y + box_.centre * frame.sin);
+  if (cell < 0) return false;
+  const double x = frame.x + part.centre * frame.cos, y = frame.y + part.centre * frame.sin;
+  const std::uint32_t* end = listed_.data() + starts_[static_cast<std::size_t>(cell) + 1];
+  return std::any_of(listed_.data() + starts_[static_cast<std::size_t>(cell)], end, [&](std::uint32_t i) {
+    const HalfEdge& edge = edges_[i];
+    const double dx = edge.mx - x, dy = edge.my - y;
+    return boxMeets(dx * frame.cos + dy * frame.sin, dy * frame.cos - dx * frame.sin,
+                    edge.hx * frame.cos + edge.hy * frame.sin, edge.hy * frame.cos - edge.hx * frame.sin,
+                    part.half_length, part.half_width);
+  });
 }
 
 double FootprintIndex::exactDistance(const HalfEdge& edge, const Frame& frame, double cx, double cy) const {
@@ -262,10 +280,7 @@ double FootprintIndex::exactDistance(const HalfEdge& edge, const Frame& frame, d
   const double dx = edge.mx - cx, dy = edge.my - cy;
   const double mu = dx * frame.cos + dy * frame.sin, mv = dy * frame.cos - dx * frame.sin;
   const double hu = edge.hx * frame.cos + edge.hy * frame.sin, hv = edge.hy * frame.cos - edge.hx * frame.sin;
-  if (std::abs(mu) <= l + std::abs(hu) && std::abs(mv) <= w + std::abs(hv) &&
-      std::abs(mu * hv - mv * hu) <= l * std::abs(hv) + w * std::abs(hu)) {
-    return 0.0;
-  }
+  if (boxMeets(mu, mv, hu, hv, l, w)) return 0.0;
   double best = std::min(pointToBox(mu - hu, mv - hv, l, w), pointToBox(mu + hu, mv + hv, l, w));
   const double half_squared = std::max(hu * hu + hv * hv, 1e-18);
   for (int corner = 0; corner < 4; ++corner) {

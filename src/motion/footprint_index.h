@@ -113,6 +113,12 @@ class FootprintIndex {
   /// False only where no free footprint has its rear-axle centre within `radius` [m] of the point.
   bool axleMayBeWithin(double x, double y, double radius) const;
 
+  /// Whether an edge meets a part of the footprint, margin included, of a vehicle at `frame`.
+  bool meetsEdge(const FootprintBox& part, const Frame& frame) const;
+
+  /// That every free footprint keeps, to any obstacle [m].
+  double leastMargin() const { return least_margin_; }
+
   /// Radius of the disc around the rear axle's middle that every free footprint contains, with the margin [m].
   double axleDisc() const;
 

@@ -84,5 +84,10 @@ TEST(NarrowPassages, AreNamedWhereTheyCloseTheWay) {
   EXPECT_EQ(refusalOf(madeCase("gap_0.1")), "a path was found");
 }
 
+TEST(TightPlaces, AreToldWhereTheVehicleIsTooLongForThem) {
+  const std::string refusal = refusalOf(madeCase("tee_2.7"));
+  EXPECT_NE(refusal.find("there is too little room to turn to that heading"), std::string::npos) << refusal;
+}
+
 }  // namespace
 }  // namespace external_command

@@ -57,7 +57,7 @@ std::optional<Arcs> HybridAStar::search(const std::function<bool()>& stop) {
   if (runFor(std::min(kFirstLookSteps, max_steps_))) return search_.arcs();
   if (outcome_ != TwoWaySearch::Outcome::kOutOfSteps || max_steps_ <= kFirstLookSteps) return std::nullopt;
   if (isTooNarrow(scene_.index, area_, query_.start.position(), query_.goal.position(), stop) ||
-      tightTurn(scene_.index, area_, query_.start, query_.goal, stop)) {
+      tightTurn(scene_.index, area_, query_.start, query_.goal, {search_.toStart(), search_.toGoal()}, stop)) {
     outcome_ = TwoWaySearch::Outcome::kNone;
     return std::nullopt;
   }

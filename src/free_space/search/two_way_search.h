@@ -41,6 +41,9 @@ class TwoWaySearch {
   TwoWaySearch(const TwoWaySearch&) = delete;
   TwoWaySearch& operator=(const TwoWaySearch&) = delete;
 
+  const DistanceMap& toStart() const { return to_start_; }
+  const DistanceMap& toGoal() const { return to_goal_; }
+
   Outcome run(const Variant& variant, const Limits& limits);
 
   /// The path found by the last run, from start to goal.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "external_command/core/error.h"
 #include "external_command/free_space/free_space_planner.h"
@@ -14,7 +15,8 @@ namespace {
 
 std::optional<TightTurn> tightTurnIn(const ParkingWorld& place, const std::function<bool()>& stop = kNeverStop) {
   const SearchWorld world(place);
-  return tightTurn(world.index, world.area, place.start, place.goal, stop);
+  const DistanceMap to_start(world.index, world.area, place.start), to_goal(world.index, world.area, place.goal);
+  return tightTurn(world.index, world.area, place.start, place.goal, {to_start, to_goal}, stop);
 }
 
 TEST(TightTurn, IsProvedInAStreetThatIsNarrowerThanTheVehicleIsLong) {
@@ -35,12 +37,44 @@ TEST(TightTurn, IsProvedInABendThatIsTooTight) {
   EXPECT_FALSE(turn->heading_off);
 }
 
+/// What fits round a bend of two corridors as wide as that, standing across its corner, is 2 * sqrt(2) widths long,
+/// less twice its own width.
+TEST(TightTurn, IsProvedInABendThatTheVehicleIsAThirdOfAMetreTooLongFor) {
+  const VehicleParams car = smallCar();
+  const double fitting = (car.length() + 2.0 * car.width) / (2.0 * M_SQRT2);
+  EXPECT_TRUE(tightTurnIn(corner(fitting - 0.35 / (2.0 * M_SQRT2))));
+  EXPECT_FALSE(tightTurnIn(corner(fitting + 0.02)));
+}
+
 TEST(TightTurn, IsNotProvedInABendWithRoomEnough) { EXPECT_FALSE(tightTurnIn(corner(smallCar().length()))); }
 
 TEST(TightTurn, IsNotProvedForTheHeadingTheVehicleHas) {
   ParkingWorld world = street(3.0);
   world.goal.heading = 0.0;
   EXPECT_FALSE(tightTurnIn(world));
+}
+
+/// A bay narrower than the vehicle, at a yard in which there are millions of poses.
+ParkingWorld yardWithANarrowBay(double side) {
+  ParkingWorld world = bay(-0.15);
+  Region::Parts parts;
+  parts.non_drivable = world.region.nonDrivable();
+  parts.non_drivable.pop_back();  // the wall across the aisle
+  parts.drivable = box({0.0, 0.5 * side}, side, side + 1.0);
+  world.region = Region(std::move(parts));
+  return world;
+}
+
+TEST(TightTurn, IsProvedAtTheTightEndBesideAWideYard) {
+  for (const double side : {30.0, 60.0}) {
+    int looks = 0;
+    const auto count = [&looks] { return ++looks > 1000; };
+    EXPECT_TRUE(tightTurnIn(yardWithANarrowBay(side), count)) << side;
+    ParkingWorld back = yardWithANarrowBay(side);
+    std::swap(back.start, back.goal);
+    EXPECT_TRUE(tightTurnIn(back, count)) << side;
+    EXPECT_LT(looks, 100) << side;
+  }
 }
 
 TEST(TightTurn, IsNotProvedOnceStopped) {
