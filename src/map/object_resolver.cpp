@@ -14,6 +14,11 @@ namespace external_command {
 
 namespace {
 
+// As many lanes of objects as these, for each object and overlap that a file names, no map needs: most overlaps are of
+// one lane with one object. Without a limit, n objects that share an overlap with n lanes would have n * n.
+constexpr std::size_t kLanesPerName = 10;
+constexpr std::size_t kFewLanes = 100000;  // are taken in any case
+
 /// Where a fault of an object is told to lie.
 FaultPlace middleOf(const std::vector<Point2d>& points) {
   if (points.empty() || !std::all_of(points.begin(), points.end(), isPlausible)) return {};
@@ -45,7 +50,8 @@ class ObjectResolver {
   std::optional<Polygon> polygonOf(const std::vector<Point2d>& points, const char* kind, const std::string& id);
   double headingOf(const ParkingSpaceData& space, const Polygon& polygon);
   std::vector<LaneOverlap> lanesOf(const std::string& id, const std::vector<std::string>& overlap_ids);
-  void addLanesOf(const OverlapData& overlap, std::vector<LaneOverlap>* lanes);
+  void addLanesOf(const OverlapData& overlap, const std::string& object_id, std::vector<LaneOverlap>* lanes);
+  void countLane(const OverlapData& overlap, const std::string& object_id);
   LaneOverlap rangeOn(LaneIndex lane, const OverlapObject& object);
 
   MapData& data_;
@@ -53,15 +59,23 @@ class ObjectResolver {
   std::string why_not_;  ///< the last polygon cannot be used
   std::unordered_map<std::string_view, const OverlapData*> overlap_by_id_;
   std::unordered_map<std::string_view, std::vector<const OverlapData*>> overlaps_by_object_;  // lanes left out
+  std::size_t names_ = 0;        // of objects in overlaps, and of overlaps in objects
+  std::size_t lanes_taken_ = 0;  // from overlaps, for all objects together
 };
 
 void ObjectResolver::indexOverlaps() {
-  for (const OverlapData& overlap : data_.overlaps) {
+  for (OverlapData& overlap : data_.overlaps) {
+    // The lanes come first, so that who takes them need not look at the rest.
+    std::stable_partition(overlap.objects.begin(), overlap.objects.end(),
+                          [](const OverlapObject& object) { return object.is_lane; });
     overlap_by_id_.emplace(overlap.id, &overlap);
     for (const OverlapObject& object : overlap.objects) {
       if (!object.is_lane) overlaps_by_object_[object.id].push_back(&overlap);
     }
+    names_ += overlap.objects.size();
   }
+  for (const ParkingSpaceData& space : data_.parking_spaces) names_ += space.overlaps.size();
+  for (const AreaData& area : data_.areas) names_ += area.overlaps.size();
 }
 
 std::optional<Polygon> ObjectResolver::polygonOf(const std::vector<Point2d>& points, const char* kind,
@@ -143,19 +157,21 @@ std::vector<LaneOverlap> ObjectResolver::lanesOf(const std::string& id, const st
     if (found == overlap_by_id_.end()) {
       map_.faults.add(MapFault::kOverlapDangling, {id, overlap_id}, {}, "overlap ", overlap_id, " of ", id);
     } else {
-      addLanesOf(*found->second, &lanes);
+      addLanesOf(*found->second, id, &lanes);
     }
   }
   const auto naming = overlaps_by_object_.find(id);
   if (overlap_ids.empty() && naming != overlaps_by_object_.end()) {
-    for (const OverlapData* overlap : naming->second) addLanesOf(*overlap, &lanes);
+    for (const OverlapData* overlap : naming->second) addLanesOf(*overlap, id, &lanes);
   }
   return lanes;
 }
 
-void ObjectResolver::addLanesOf(const OverlapData& overlap, std::vector<LaneOverlap>* lanes) {
+void ObjectResolver::addLanesOf(const OverlapData& overlap, const std::string& object_id,
+                                std::vector<LaneOverlap>* lanes) {
   for (const OverlapObject& object : overlap.objects) {
-    if (!object.is_lane) continue;
+    if (!object.is_lane) break;
+    countLane(overlap, object_id);
     const auto found = map_.lane_by_id.find(object.id);
     if (found == map_.lane_by_id.end()) {
       map_.faults.add(MapFault::kOverlapDangling, {overlap.id, object.id}, {}, "lane ", object.id, " of overlap ",
@@ -167,6 +183,15 @@ void ObjectResolver::addLanesOf(const OverlapData& overlap, std::vector<LaneOver
       if (lane.reverse) lanes->push_back({*lane.reverse, lane.length() - range.end_s, lane.length() - range.start_s});
     }
   }
+}
+
+void ObjectResolver::countLane(const OverlapData& overlap, const std::string& object_id) {
+  const std::size_t limit = kFewLanes + kLanesPerName * names_;
+  if (++lanes_taken_ <= limit) return;
+  throw MapError(text("overlaps give parking spaces, areas and junctions more than ", limit, " lanes, which are ",
+                      kLanesPerName, " for each of the ", names_, " names in them and ", kFewLanes,
+                      " more; the one too many is of overlap ", overlap.id, " with ", object_id,
+                      "; state an overlap of its own for each lane with each object"));
 }
 
 LaneOverlap ObjectResolver::rangeOn(LaneIndex lane, const OverlapObject& object) {

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string_view>
 #include <tuple>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "external_command/core/error.h"
@@ -168,11 +170,10 @@ FoundObject describeSpace(const HdMap& map, const ParkingSpace& space) {
   object.has_heading = true;
   object.length = extent.maxCoeff();
   object.width = extent.minCoeff();
+  std::unordered_set<std::string_view> seen;
   for (const LaneOverlap& overlap : space.lanes) {
     const std::string& id = map.lane(overlap.lane).id;
-    if (std::find(object.lane_ids.begin(), object.lane_ids.end(), id) == object.lane_ids.end()) {
-      object.lane_ids.push_back(id);
-    }
+    if (seen.insert(id).second) object.lane_ids.push_back(id);
   }
   object.polygon = &space.polygon;
   return object;

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
 
+#include "external_command/core/error.h"
 #include "external_command/map/hd_map.h"
 #include "map/map_files.h"
 #include "support/map_builder.h"
@@ -93,6 +95,50 @@ TEST_F(LaneAlongX, TakesAllOfTheLaneWhereAnOverlapHasNoUsableRange) {
     EXPECT_EQ(map->findParkingSpace("p")->lanes[0].end_s, 100.0);
     EXPECT_TRUE(warnsOf(map->warnings(), 1, "overlaps without a usable range"));
   }
+}
+
+/// One overlap of `lanes` lanes, which is named by each of `spaces` parking spaces.
+MapData sharedOverlap(int lanes, int spaces) {
+  MapBuilder builder;
+  OverlapData overlap{"shared", {}};
+  for (int i = 0; i < lanes; ++i) {
+    builder.lane("lane_" + std::to_string(i), {{0, 4.0 * i}, {50, 4.0 * i}});
+    overlap.objects.push_back({"lane_" + std::to_string(i), true, 0.0, 50.0});
+  }
+  for (int i = 0; i < spaces; ++i) {
+    builder.parkingSpace("space_" + std::to_string(i), {3.0 * i, -6, M_PI / 2}, 5, 2.5);
+    builder.data().parking_spaces.back().overlaps = {"shared"};
+  }
+  builder.data().overlaps = {overlap};
+  return builder.data();
+}
+
+TEST(SharedOverlap, GivesEachOfManySpacesItsFewLanes) {
+  const HdMap map(sharedOverlap(10, 20000), Point2d::Zero());
+  for (const ParkingSpace& space : map.parkingSpaces()) EXPECT_EQ(space.lanes.size(), 10u) << space.id;
+}
+
+TEST(SharedOverlap, GivesOneSpaceItsManyLanes) {
+  const HdMap map(sharedOverlap(20000, 1), Point2d::Zero());
+  EXPECT_EQ(map.findParkingSpace("space_0")->lanes.size(), 20000u);
+}
+
+TEST(SharedOverlap, IsRefusedWhereManySpacesWouldHaveManyLanesEach) {
+  try {
+    HdMap(sharedOverlap(400, 400), Point2d::Zero());
+    FAIL() << "it is taken";
+  } catch (const MapError& error) {
+    EXPECT_STREQ(error.what(),
+                 "overlaps give parking spaces, areas and junctions more than 108000 lanes, which are 10 for each of "
+                 "the 800 names in them and 100000 more; the one too many is of overlap shared with space_270; state "
+                 "an overlap of its own for each lane with each object");
+  }
+}
+
+TEST_F(LaneAlongX, TakesTheLanesOfAnOverlapWhereverTheyStandInIt) {
+  builder.parkingSpace("p", {50, -6, -M_PI / 2}, 5, 2.5, {"lane"});
+  builder.data().overlaps[0].objects = {{"p", false, 0, 0}, {"lane", true, 0, 9}, {"q", false, 0, 0}, {"other", true}};
+  EXPECT_EQ(builder.build()->findParkingSpace("p")->lanes.size(), 2u);
 }
 
 TEST_F(LaneAlongX, DropsObjectsWhosePolygonCannotBeUsed) {

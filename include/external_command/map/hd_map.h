@@ -154,7 +154,7 @@ class HdMap {
  public:
   /// Resolves, derives and drops as above. O(n log n).
   /// @param origin  is subtracted from every coordinate [m].
-  /// @throws MapError  no usable lane is left.
+  /// @throws MapError  no usable lane is left, or the overlaps give objects far more lanes than they name.
   HdMap(MapData data, const Point2d& origin, const MapParams& params = {});
   /// One that was resolved before.
   explicit HdMap(MapContent content);

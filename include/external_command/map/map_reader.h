@@ -18,7 +18,8 @@ struct MapOrigin {
 
 /// Reads Apollo's base_map / sim_map, binary or protobuf text (told apart by content, not by name).
 /// kAuto takes the centre of the lanes' bounding box, rounded to whole metres.
-/// @throws MapError  the file is missing, empty, truncated, not a map, or has no usable lane; the text names the file.
+/// @throws MapError  the file is missing, empty, truncated, not a map, or one that HdMap refuses; the text names the
+/// file.
 std::shared_ptr<const HdMap> readMap(const std::string& file, const MapOrigin& origin, const MapParams& params = {});
 
 /// The same, but only what the file states.
