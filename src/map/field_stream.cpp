@@ -22,7 +22,7 @@ bool FieldStream::next(Batch* batch) {
   batch->first_part = parts_read_;
   batch->parts_begin = rest_.size();
   rest_.clear();
-  while (batch->end == 0 && bytes_read_ < file_.size()) readPart(batch);
+  while (batch->end == 0 && !is_broken_ && bytes_read_ < file_.size()) readPart(batch);
   batch->parts = parts_read_ - batch->first_part;
   if (batch->end > 0) rest_.assign(batch->bytes, batch->end, std::string::npos);
   return !batch->bytes.empty();
@@ -35,9 +35,18 @@ void FieldStream::readPart(Batch* batch) {
   file_.read(bytes_read_, size, &bytes[have]);
   bytes_read_ += size;
   ++parts_read_;
-  for (std::size_t end = fieldEnd(bytes, batch->end); end != kNoField; end = fieldEnd(bytes, end)) {
-    batch->end = end;
-    if (end == bytes.size()) break;
+  findEnd(batch);
+}
+
+void FieldStream::findEnd(Batch* batch) {
+  const std::string_view bytes = batch->bytes;
+  const std::size_t later = file_.size() - bytes_read_;
+  while (batch->end < bytes.size()) {
+    const std::size_t here = bytes.size() - batch->end;
+    const auto size = fieldSize(bytes.substr(batch->end));
+    is_broken_ = size ? *size > here + later : here >= kMostHead || later == 0;
+    if (is_broken_ || !size || *size > here) return;
+    batch->end += *size;
   }
 }
 

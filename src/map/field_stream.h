@@ -12,7 +12,8 @@
 namespace external_command {
 
 /// The fields of the binary protobuf message in a map file, handed out in batches of about a megabyte: a map of
-/// gigabytes is never in memory as a file, too. Thread-safe.
+/// gigabytes is never in memory as a file, too. What makes no sense as a field ends them: what lies behind it is not
+/// read. Thread-safe.
 class FieldStream {
  public:
   /// Some fields that stand behind each other, or, as the last one, what makes no sense as a field. To be used for one
@@ -25,7 +26,7 @@ class FieldStream {
     std::size_t first_part = 0, parts = 0;  ///< of the file's content, as ContentDigest has them, that end `bytes` ...
     std::size_t parts_begin = 0;            ///< ... from here on
 
-    /// Each part of the file is in one batch.
+    /// Each part of the file that is read is in one batch.
     void addTo(ContentDigest* digest) const;
   };
 
@@ -37,13 +38,15 @@ class FieldStream {
 
  private:
   void readPart(Batch* batch);
+  void findEnd(Batch* batch);
 
   const MapFile& file_;
   std::mutex mutex_;
   std::size_t batches_ = 0;
   std::size_t parts_read_ = 0;
   std::size_t bytes_read_ = 0;
-  std::string rest_;  ///< the beginning of a field that goes on in what is not read yet
+  bool is_broken_ = false;  ///< what follows the fields so far makes no sense, whatever is read yet
+  std::string rest_;        ///< the beginning of a field that goes on in what is not read yet
 };
 
 }  // namespace external_command

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <limits>
 #include <mutex>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,7 @@ namespace external_command {
 
 namespace {
 
+constexpr std::size_t kNowhere = std::string::npos;
 constexpr const char* kWhatNext = "; give Apollo's base_map or sim_map, binary or protobuf text";
 
 /// A binary map cannot do without control characters (field tags and lengths), a text has none.
@@ -59,7 +61,7 @@ class BinaryParser {
 
   MapData parse() {
     inParallel(parallelParts(digest_.parts()), [this](std::size_t) { work(); });
-    if (bad_at_ != kNoField) {
+    if (bad_at_ != kNowhere) {
       throw MapError(text(file_.path(), " is no map, or a damaged or truncated one: it makes no sense from byte ",
                           bad_at_, " of ", file_.size(), " on", kWhatNext));
     }
@@ -72,12 +74,12 @@ class BinaryParser {
   void work() {
     FieldStream::Batch batch;
     proto::Map field;
-    while (bad_at_ == kNoField && stream_.next(&batch)) {
+    while (bad_at_ == kNowhere && stream_.next(&batch)) {
       batch.addTo(&digest_);
       ProtoConverter converter;
       const std::size_t bad = convert(batch, &field, &converter);
       const std::lock_guard<std::mutex> lock(mutex_);
-      if (bad != kNoField) bad_at_ = std::min<std::size_t>(bad_at_, batch.position + bad);
+      if (bad != kNowhere) bad_at_ = std::min<std::size_t>(bad_at_, batch.position + bad);
       if (converters_.size() <= batch.index) converters_.resize(batch.index + 1);
       converters_[batch.index] = std::move(converter);
     }
@@ -85,21 +87,22 @@ class BinaryParser {
 
   /// A message cut between two of its fields is two messages, which merge into the one. So each lane is parsed into the
   /// memory of the one before: faster than all of them at once, and without a second copy of the map.
-  /// @return  where a field makes no sense; kNoField where all do.
+  /// @return  where a field makes no sense; kNowhere where all do.
   static std::size_t convert(const FieldStream::Batch& batch, proto::Map* field, ProtoConverter* converter) {
     if (batch.end == 0) return 0;
-    for (std::size_t begin = 0, end = begin; begin < batch.end; begin = end) {
-      end = fieldEnd(batch.bytes, begin);
-      if (!field->ParsePartialFromArray(batch.bytes.data() + begin, static_cast<int>(end - begin))) return begin;
+    const std::string_view bytes = batch.bytes;
+    for (std::size_t begin = 0, size = 0; begin < batch.end; begin += size) {
+      size = fieldSize(bytes.substr(begin)).value();
+      if (!field->ParsePartialFromArray(bytes.data() + begin, static_cast<int>(size))) return begin;
       converter->add(*field);
     }
-    return kNoField;
+    return kNowhere;
   }
 
   const MapFile& file_;
   FieldStream stream_;
   ContentDigest digest_;
-  std::atomic<std::size_t> bad_at_{kNoField};
+  std::atomic<std::size_t> bad_at_{kNowhere};
   std::mutex mutex_;
   std::vector<ProtoConverter> converters_;  ///< of each batch
 };
