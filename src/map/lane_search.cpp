@@ -114,10 +114,15 @@ std::vector<LaneMatch> lanesWithin(const MapContent& map, const Point2d& point, 
     near.push_back(segment.lane);
     return bound;
   });
-  std::sort(near.begin(), near.end());
-  near.erase(std::unique(near.begin(), near.end()), near.end());
+  return matchesOf(map, std::move(near), point, query);
+}
+
+std::vector<LaneMatch> matchesOf(const MapContent& map, std::vector<LaneIndex> lanes, const Point2d& point,
+                                 const LaneQuery& query) {
+  std::sort(lanes.begin(), lanes.end());
+  lanes.erase(std::unique(lanes.begin(), lanes.end()), lanes.end());
   std::vector<LaneMatch> matches;
-  for (const LaneIndex lane : near) addMatches(map, lane, point, query, searchBound(point, query), &matches);
+  for (const LaneIndex lane : lanes) addMatches(map, lane, point, query, searchBound(point, query), &matches);
   std::sort(matches.begin(), matches.end(), isNearer);
   return matches;
 }

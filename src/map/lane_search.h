@@ -12,4 +12,8 @@ namespace external_command {
 std::optional<LaneMatch> nearestLane(const MapContent& map, const Point2d& point, const LaneQuery& query);
 std::vector<LaneMatch> lanesWithin(const MapContent& map, const Point2d& point, const LaneQuery& query);
 
+/// Those of `lanes` that satisfy `query`, drivable or not, as lanesWithin() has them.
+std::vector<LaneMatch> matchesOf(const MapContent& map, std::vector<LaneIndex> lanes, const Point2d& point,
+                                 const LaneQuery& query);
+
 }  // namespace external_command

@@ -4,8 +4,10 @@
 #include <limits>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "checks.h"
+#include "named_ids.h"
 
 namespace external_command {
 
@@ -23,7 +25,7 @@ using Ids = std::vector<std::string>;
 class Overlaps {
  public:
   explicit Overlaps(const MapUnderCheck& check) : check_(check), map_(check.map) {
-    for (const OverlapData& overlap : check.stated.overlaps) overlap_by_id_.emplace(overlap.id, &overlap);
+    for (const OverlapData& overlap : check.stated.overlaps) addOverlap(overlap);
     for (const LaneData& lane : check.stated.lanes) addObject(lane.id, "lane", lane.overlaps);
     for (const ParkingSpaceData& space : check.stated.parking_spaces) {
       addObject(space.id, "parking space", space.overlaps);
@@ -44,18 +46,14 @@ class Overlaps {
   }
 
  private:
-  struct Object {
-    const char* kind;
-    const Ids* overlaps;
-  };
-
+  /// The first of an id counts.
   void addObject(const std::string& id, const char* kind, const Ids& overlaps) {
-    object_by_id_.emplace(id, Object{kind, &overlaps});
+    if (kind_by_id_.emplace(id, kind).second) overlaps_of_object_.add(id, overlaps);
   }
 
-  static bool names(const OverlapData& overlap, const std::string& id) {
-    return std::any_of(overlap.objects.begin(), overlap.objects.end(),
-                       [&](const OverlapObject& object) { return object.id == id; });
+  void addOverlap(const OverlapData& overlap) {
+    if (!overlaps_.insert(overlap.id).second) return;
+    for (const OverlapObject& object : overlap.objects) objects_of_overlap_.add(overlap.id, object.id);
   }
 
   const Lane* laneOf(const OverlapObject& object) const {
@@ -72,9 +70,8 @@ class Overlaps {
   /// An object names an overlap: is it there, and does it name the object?
   void checkNamed(const std::string& id, const char* kind, const Ids& overlaps) {
     for (const std::string& overlap_id : overlaps) {
-      const auto found = overlap_by_id_.find(overlap_id);
-      if (found != overlap_by_id_.end() && names(*found->second, id)) continue;
-      const char* how = found == overlap_by_id_.end() ? ", which does not exist" : ", which does not name it";
+      if (objects_of_overlap_.has(overlap_id, id)) continue;
+      const char* how = overlaps_.count(overlap_id) == 0 ? ", which does not exist" : ", which does not name it";
       check_.faults->add(MapFault::kOverlapOneSided, {id, overlap_id}, {placeOf(id)}, kind, " ", id, " names overlap ",
                          overlap_id, how);
     }
@@ -82,13 +79,10 @@ class Overlaps {
 
   void checkOverlap(const OverlapData& overlap) {
     for (const OverlapObject& object : overlap.objects) {
-      const auto found = object_by_id_.find(object.id);
-      if (found != object_by_id_.end()) {
-        const Ids& named = *found->second.overlaps;
-        if (std::find(named.begin(), named.end(), overlap.id) == named.end()) {
-          check_.faults->add(MapFault::kOverlapOneSided, {object.id, overlap.id}, {placeOf(object.id)}, "overlap ",
-                             overlap.id, " names ", found->second.kind, " ", object.id, ", which does not name it");
-        }
+      const auto kind = kind_by_id_.find(object.id);
+      if (kind != kind_by_id_.end() && !overlaps_of_object_.has(object.id, overlap.id)) {
+        check_.faults->add(MapFault::kOverlapOneSided, {object.id, overlap.id}, {placeOf(object.id)}, "overlap ",
+                           overlap.id, " names ", kind->second, " ", object.id, ", which does not name it");
       }
       const Lane* lane = laneOf(object);
       if (lane != nullptr) checkRange(overlap, object, *lane);
@@ -164,8 +158,9 @@ class Overlaps {
 
   const MapUnderCheck& check_;
   const HdMap& map_;
-  std::unordered_map<std::string_view, const OverlapData*> overlap_by_id_;
-  std::unordered_map<std::string_view, Object> object_by_id_;
+  std::unordered_set<std::string_view> overlaps_;
+  NamedIds objects_of_overlap_, overlaps_of_object_;
+  std::unordered_map<std::string_view, const char*> kind_by_id_;  // of objects
   std::unordered_map<std::string_view, const Polygon*> polygon_by_id_;
 };
 

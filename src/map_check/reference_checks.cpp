@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "checks.h"
+#include "named_ids.h"
 
 namespace external_command {
 
@@ -13,13 +13,11 @@ namespace {
 
 using Ids = std::vector<std::string>;
 
-bool contains(const Ids& ids, const std::string& id) { return std::find(ids.begin(), ids.end(), id) != ids.end(); }
-
 class References {
  public:
   explicit References(const MapUnderCheck& check) : check_(check) {
     for (const LaneData& lane : check.stated.lanes) {
-      lane_by_id_.emplace(lane.id, &lane);
+      if (lane_by_id_.emplace(lane.id, &lane).second) addNames(lane);
       states_successors_ |= !lane.successors.empty();
       states_predecessors_ |= !lane.predecessors.empty();
     }
@@ -38,6 +36,13 @@ class References {
   }
 
  private:
+  void addNames(const LaneData& lane) {
+    successors_.add(lane.id, lane.successors);
+    predecessors_.add(lane.id, lane.predecessors);
+    for (const Ids* ids : {&lane.left_forward, &lane.right_forward}) forward_.add(lane.id, *ids);
+    for (const Ids* ids : {&lane.left_reverse, &lane.right_reverse}) reverse_.add(lane.id, *ids);
+  }
+
   void checkLane(const LaneData& lane) {
     const Lane* used = usedLane(lane.id);
     if (used == nullptr) return;
@@ -69,35 +74,31 @@ class References {
   void checkLinks(const LaneData& lane, const Lane& used) {
     for (const std::string& id : lane.successors) {
       const LaneData* next = driven(id);
-      if (next == nullptr || contains(next->predecessors, lane.id)) continue;
+      if (next == nullptr || predecessors_.has(id, lane.id)) continue;
       add(MapFault::kLinkOneSided, lane, *next, used.center.points().back(), lane.id, " to ", id, ": ", id,
           " does not have it as predecessor; it is driven");
     }
     for (const std::string& id : lane.predecessors) {
       const LaneData* before = driven(id);
-      if (before == nullptr || contains(before->successors, lane.id)) continue;
+      if (before == nullptr || successors_.has(id, lane.id)) continue;
       add(MapFault::kLinkOneSided, *before, lane, used.center.points().front(), id, " to ", lane.id, ": ", id,
           " does not have it as successor; it is not driven");
     }
   }
 
   void checkNeighbours(const LaneData& lane, const Lane& used) {
-    const auto check = [&](const Ids& ids, const char* kind, bool is_forward) {
+    const auto check = [&](const Ids& ids, const char* kind, const NamedIds& neighbours) {
       for (const std::string& id : ids) {
         const LaneData* other = driven(id);
-        if (other == nullptr || other == &lane) continue;
-        const bool is_named = is_forward
-                                  ? contains(other->left_forward, lane.id) || contains(other->right_forward, lane.id)
-                                  : contains(other->left_reverse, lane.id) || contains(other->right_reverse, lane.id);
-        if (is_named) continue;
+        if (other == nullptr || other == &lane || neighbours.has(id, lane.id)) continue;
         add(MapFault::kNeighbourOneSided, lane, *other, used.center.points().front(), id, " is the ", kind,
             " neighbour of ", lane.id, ", but not the other way round");
       }
     };
-    check(lane.left_forward, "left forward", true);
-    check(lane.right_forward, "right forward", true);
-    check(lane.left_reverse, "left reverse", false);
-    check(lane.right_reverse, "right reverse", false);
+    check(lane.left_forward, "left forward", forward_);
+    check(lane.right_forward, "right forward", forward_);
+    check(lane.left_reverse, "left reverse", reverse_);
+    check(lane.right_reverse, "right reverse", reverse_);
   }
 
   void checkReverseNeighbours(const LaneData& stated, const Lane& lane) {
@@ -141,6 +142,7 @@ class References {
 
   const MapUnderCheck& check_;
   std::unordered_map<std::string_view, const LaneData*> lane_by_id_;  // the first of each id, which is the one used
+  NamedIds successors_, predecessors_, forward_, reverse_;            // by these
   std::unordered_set<std::string_view> junctions_;
   bool states_successors_ = false, states_predecessors_ = false;
 };

@@ -4,6 +4,7 @@ nothing where the same thing is just as it may be."""
 import copy
 import math
 import os
+import resource
 import unittest
 
 from external_command import map_check
@@ -229,6 +230,43 @@ class LinkTest(MapCheckTest):
         self.assert_passes("link_one_sided", both)
         self.assert_finds("link_missing", both, "main_0_f1", "main_1_f1", what="0.00 m apart")
         self.assert_passes("link_missing", None)
+
+    def test_a_link_that_is_broken_is_not_missing(self):
+        def part(town):
+            town.move("main_1_f1", 0.1, 0.0)
+        self.assert_finds("link_broken", part, "main_0_f1", "main_1_f1", max_link_gap=0.05)
+        self.assert_passes("link_missing", part, max_link_gap=0.05)
+        self.assert_passes("link_broken", part)
+
+    def test_a_link_is_missing_of_several_that_meet(self):
+        def meet(is_linked):
+            def change(town):
+                for name in ("a", "b", "c"):
+                    links = [("predecessor_id", "main_0_f1")] if is_linked or name != "b" else []
+                    town.add_island(100.0, 0.0, name, links)
+                    town.move(name, 0.0, town.center("main_0_f1")[-1].y - town.center(name)[0].y)
+                    if links:
+                        town["main_0_f1"].successor_id.add(id=name.encode())
+            return change
+        self.assert_finds("link_missing", meet(False), "main_0_f1", "b")
+        self.assert_passes("link_missing", meet(True))
+
+    def test_a_lane_into_which_thousands_lead_is_looked_at_once_for_each(self):
+        def lead(town):
+            last = town["main_0_f1"]
+            for i in range(80000):
+                lane = town.message.lane.add(type=last.type)
+                lane.id.id = b"one of many lanes, number %d" % i
+                line = lane.central_curve.segment.add().line_segment
+                line.point.add(x=0.0, y=1000.0 + 20.0 * i)
+                line.point.add(x=50.0, y=1000.0 + 20.0 * i)
+                lane.successor_id.add().CopyFrom(last.id)
+                last.predecessor_id.add().CopyFrom(lane.id)
+        kinds = [kind["kind"] for kind in map_check.kinds() if kind["kind"] != "link_one_sided"]
+        path = self.written(lead)
+        begin = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+        self.assertEqual([], map_check.check_map(path, ignore=kinds)["findings"])
+        self.assertLess(resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - begin, 12.0)
 
     def test_a_link_at_which_the_height_jumps(self):
         def lift(metres):
