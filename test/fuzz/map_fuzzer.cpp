@@ -1,22 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loads damaged maps until a time is up: map_fuzzer MINUTES SEED FILE...
-// Each line is a figure; the exit code is 1 where a map took too long or too much memory, or anything but a MapError
-// came of it. Built with clang's -fsanitize=fuzzer and -DEC_LIBFUZZER, the same is libFuzzer's target.
+// Loads damaged maps, and drives about in those that are still maps, until a time is up: map_fuzzer MINUTES SEED
+// FILE... Each line is a figure; the exit code is 1 where a map took too long or too much memory, or anything but a
+// MapError or the refusal of a route came of it; where the process ends, the file named first is the map that ended it.
+// Built with clang's -fsanitize=fuzzer and -DEC_LIBFUZZER, the same is libFuzzer's target.
 #include <sys/resource.h>
 
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <iterator>
+#include <memory>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "external_command/core/error.h"
 #include "external_command/map/map_reader.h"
-#include "external_command/routing/router.h"
+#include "random_drives.h"
 
 namespace {
 
@@ -26,20 +29,32 @@ using Seconds = std::chrono::duration<double>;
 constexpr double kMostTime = 5.0;      // for one map [s]
 constexpr double kMostMemory = 500.0;  // [MB]
 
-/// What comes of a map: true where it is one. Anything but a MapError goes on.
-bool load(const std::string& path) {
-  try {
-    const auto map = external_command::readMap(path, {});
-    external_command::Router router(map, {});
-    return true;
-  } catch (const external_command::MapError&) {
-    return false;
-  }
-}
-
 void write(const std::string& path, const std::string& bytes) {
   std::ofstream file(path, std::ios::binary | std::ios::trunc);
   file << bytes;
+}
+
+/// What comes of a map: nullptr where it is none. Anything but a MapError goes on.
+std::shared_ptr<const external_command::HdMap> load(const std::string& path) {
+  try {
+    return external_command::readMap(path, {});
+  } catch (const external_command::MapError&) {
+    return nullptr;
+  }
+}
+
+struct Outcome {
+  bool is_map = false;
+  std::size_t paths = 0;
+};
+
+/// A map's drives depend on its bytes only.
+Outcome tryMap(const std::string& path, const std::string& bytes) {
+  write(path, bytes);
+  const auto map = load(path);
+  if (!map) return {};
+  std::mt19937 random(static_cast<unsigned>(std::hash<std::string>()(bytes)));
+  return {true, external_command::driveAbout(map, &random)};
 }
 
 std::string bytesOf(const std::string& path) {
@@ -58,8 +73,12 @@ class Damage {
  public:
   explicit Damage(unsigned seed) : random_(seed) {}
 
+  /// Every other time it is only numbers and ids that change, so that many are maps still.
   std::string of(std::string bytes) {
-    for (std::size_t changes = 1 + below(6); changes > 0 && !bytes.empty(); --changes) change(&bytes);
+    const bool is_gentle = below(2) == 0;
+    for (std::size_t changes = 1 + below(6); changes > 0 && !bytes.empty(); --changes) {
+      is_gentle ? changeDigit(&bytes) : change(&bytes);
+    }
     return bytes;
   }
 
@@ -89,6 +108,15 @@ class Damage {
     }
   }
 
+  /// The next one behind a place.
+  void changeDigit(std::string* bytes) {
+    static constexpr char kDigits[] = "0123456789.-e";
+    const std::size_t at = bytes->find_first_of("0123456789", below(bytes->size()));
+    if (at == std::string::npos) return;
+    const char digit = kDigits[below(std::size(kDigits) - 1)];
+    below(4) == 0 ? bytes->insert(at, 1, digit) : bytes->replace(at, 1, 1, digit);
+  }
+
   /// A double or a count in the middle of it.
   void setNumber(std::string* bytes, std::size_t at) {
     static constexpr double kNumbers[] = {0.0, -1.0, 1e7, 1e9, 1e300, -1e308, 1e-300};
@@ -106,8 +134,7 @@ class Damage {
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
   const std::string path = "/tmp/external_command_map_fuzzer." + std::to_string(getpid());
-  write(path, std::string(reinterpret_cast<const char*>(data), size));
-  load(path);
+  tryMap(path, std::string(reinterpret_cast<const char*>(data), size));
   return 0;
 }
 
@@ -124,17 +151,20 @@ int main(int argc, char** argv) {
   for (int i = 3; i < argc; ++i) maps.push_back(bytesOf(argv[i]));
   char path[] = "/tmp/external_command_map_fuzzer.XXXXXX";
   if (mkstemp(path) < 0) return 2;
+  std::printf("each damaged map is written to %s\n", path);
+  std::fflush(stdout);
   const Clock::time_point begin = Clock::now();
-  std::size_t tried = 0, taken = 0, faults = 0;
+  std::size_t tried = 0, taken = 0, paths = 0, faults = 0;
   double slowest = 0.0;
   while (Clock::now() - begin < time) {
     const std::string bytes = damage.of(maps[damage.below(maps.size())]);
-    write(path, bytes);
     const Clock::time_point start = Clock::now();
     const double memory = memoryTaken();
     std::string fault;
     try {
-      taken += load(path);
+      const Outcome outcome = tryMap(path, bytes);
+      taken += outcome.is_map;
+      paths += outcome.paths;
     } catch (const std::exception& error) {
       fault = error.what();
     }
@@ -149,8 +179,10 @@ int main(int argc, char** argv) {
     std::printf("FAULT: %s: %s\n", kept.c_str(), fault.c_str());
   }
   std::remove(path);
-  std::printf("damaged maps tried %zu, taken for a map %zu, slowest %.3f s, most memory %.0f MB, faults %zu\n", tried,
-              taken, slowest, memoryTaken(), faults);
+  std::printf(
+      "damaged maps tried %zu, taken for a map %zu, paths in them %zu, slowest %.3f s, most memory %.0f MB, "
+      "faults %zu\n",
+      tried, taken, paths, slowest, memoryTaken(), faults);
   return faults > 0 ? 1 : 0;
 }
 
