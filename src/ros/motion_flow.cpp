@@ -99,13 +99,16 @@ std::optional<Pose2d> MotionFlow::startOnLane(const RoutingTask& task) const {
   return tool.isOffLane(*task.vehicle, context_.vehiclePose().height()) ? std::nullopt : task.vehicle;
 }
 
+Route MotionFlow::routeOf(const RoutingTask& task, const CancelToken& cancel) const {
+  Route route = task.route ? *task.route : context_.requireRouter().findRoute(task.query, cancel);
+  context_.params().path_bounds.require(route.distance, route.distance / context_.params().reference_path.spacing);
+  return route;
+}
+
 void MotionFlow::addRoute(const RoutingTask& task, double target_speed, const CancelToken& cancel,
                           MotionPlan* plan) const {
-  const Router& router = context_.requireRouter();
-  const HdMap& map = router.map();
-  plan->route = task.route ? task.route : router.findRoute(task.query, cancel);
-  const double spacing = context_.params().reference_path.spacing;
-  context_.params().path_bounds.require(plan->route->distance, plan->route->distance / spacing);
+  const HdMap& map = context_.requireRouter().map();
+  plan->route = routeOf(task, cancel);
   ReferencePath path = context_.requireReferencePaths().find(*plan->route, {target_speed, startOnLane(task), cancel});
   plan->path = std::move(path.path);
   const std::vector<std::string> tight = describe(map, path.tight, context_.params().vehicle);

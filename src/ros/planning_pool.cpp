@@ -43,48 +43,92 @@ std::shared_ptr<PlanningPool> PlanningPool::acquire(const PlanningLimits& limits
   return pool;
 }
 
-PlanningPool::Slot PlanningPool::take(Kind kind, const std::function<void()>& check) {
+PlanningPool::Slot PlanningPool::take(const std::string& vehicle, Kind kind, const std::function<void()>& check) {
   std::unique_lock<std::mutex> lock(mutex_);
-  requireRoomLocked(kind);
-  ++waiting(kind);
+  requireRoomLocked(vehicle, kind);
+  const auto me = line_.insert(line_.end(), {vehicle, kind});
   try {
-    while (!isFree(kind)) {
-      changed_.wait_for(lock, kCheckPeriod);
-      lock.unlock();
-      check();
-      lock.lock();
-    }
+    waitForTurn(&lock, me, check);
   } catch (...) {
-    lock.lock();
-    --waiting(kind);
+    if (!lock.owns_lock()) lock.lock();
+    line_.erase(me);
+    changed_.notify_all();
     throw;
   }
-  --waiting(kind);
-  ++(kind == Kind::kCommand ? load_.commands : load_.dry_runs);
+  line_.erase(me);
+  last_turns_[{vehicle, kind}] = ++turns_;
+  ++(kind == Kind::kCommand ? commands_ : dry_runs_);
+  changed_.notify_all();
   return {this, kind};
 }
 
-bool PlanningPool::isFree(Kind kind) const {
-  if (kind == Kind::kCommand) return load_.commands < most_commands_;
-  return load_.dry_runs < most_dry_runs_ && load_.waiting_commands == 0;
+void PlanningPool::waitForTurn(std::unique_lock<std::mutex>* lock, Line::iterator me,
+                               const std::function<void()>& check) {
+  const auto checkUnlocked = [&] {
+    lock->unlock();
+    check();
+    lock->lock();
+  };
+  if (isNext(*me)) return;
+  checkUnlocked();
+  me->is_checked = true;
+  while (!isNext(*me)) {
+    changed_.wait_for(*lock, kCheckPeriod);
+    checkUnlocked();
+  }
 }
 
-void PlanningPool::requireRoomLocked(Kind kind) const {
-  const int waiting = kind == Kind::kCommand ? load_.waiting_commands : load_.waiting_dry_runs;
-  if (isFree(kind) || waiting < most_waiting_) return;
-  throw NotReady(text("busy: ", load_.commands, " commands and ", load_.dry_runs, " dry runs are being planned, ",
-                      load_.waiting_commands, " and ", load_.waiting_dry_runs,
-                      " wait (~planning_threads, ~planning_queue); send it again in a moment"));
+bool PlanningPool::isFree(const std::string& vehicle, Kind kind) const {
+  if (kind == Kind::kCommand) return commands_ < most_commands_;
+  return dry_runs_ < most_dry_runs_ && waitingOf(vehicle, Kind::kCommand) == 0;
 }
 
-void PlanningPool::requireRoom(Kind kind) const {
+/// Among those of one turn, the first that came.
+bool PlanningPool::isNext(const Waiting& waiting) const {
+  if (!isFree(waiting.vehicle, waiting.kind)) return false;
+  const auto lastTurn = [this](const Waiting& other) {
+    const auto found = last_turns_.find({other.vehicle, other.kind});
+    return found == last_turns_.end() ? 0 : found->second;
+  };
+  const std::uint64_t mine = lastTurn(waiting);
+  bool came_earlier = true;
+  for (const Waiting& other : line_) {
+    if (&other == &waiting) {
+      came_earlier = false;
+      continue;
+    }
+    if (other.kind != waiting.kind || !other.is_checked || !isFree(other.vehicle, other.kind)) continue;
+    const std::uint64_t theirs = lastTurn(other);
+    if (theirs < mine || (theirs == mine && came_earlier)) return false;
+  }
+  return true;
+}
+
+int PlanningPool::waitingOf(const std::string& vehicle, Kind kind) const {
+  return static_cast<int>(std::count_if(line_.begin(), line_.end(), [&](const Waiting& waiting) {
+    return waiting.kind == kind && waiting.vehicle == vehicle;
+  }));
+}
+
+void PlanningPool::requireRoomLocked(const std::string& vehicle, Kind kind) const {
+  if (isFree(vehicle, kind) || waitingOf(vehicle, kind) < most_waiting_) return;
+  throw NotReady(text("busy: ", commands_, " commands and ", dry_runs_, " dry runs are being planned, ",
+                      waitingOf(vehicle, Kind::kCommand), " and ", waitingOf(vehicle, Kind::kDryRun),
+                      " of this vehicle wait (~planning_threads, ~planning_queue); send it again in a moment"));
+}
+
+void PlanningPool::requireRoom(const std::string& vehicle, Kind kind) const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  requireRoomLocked(kind);
+  requireRoomLocked(vehicle, kind);
 }
 
 PlanningPool::Load PlanningPool::load() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return load_;
+  Load load{commands_, dry_runs_, 0, 0};
+  for (const Waiting& waiting : line_) {
+    ++(waiting.kind == Kind::kCommand ? load.waiting_commands : load.waiting_dry_runs);
+  }
+  return load;
 }
 
 void PlanningPool::Slot::run(const std::function<void()>& job) const {
@@ -96,7 +140,7 @@ void PlanningPool::Slot::run(const std::function<void()>& job) const {
 PlanningPool::Slot::~Slot() {
   if (pool_ == nullptr) return;
   const std::lock_guard<std::mutex> lock(pool_->mutex_);
-  --(kind_ == Kind::kCommand ? pool_->load_.commands : pool_->load_.dry_runs);
+  --(kind_ == Kind::kCommand ? pool_->commands_ : pool_->dry_runs_);
   pool_->changed_.notify_all();
 }
 

@@ -5,6 +5,7 @@
 #include <ros/ros.h>
 
 #include <algorithm>
+#include <chrono>
 #include <future>
 #include <pluginlib/class_loader.hpp>
 #include <string>
@@ -26,6 +27,7 @@ namespace external_command {
 namespace {
 
 constexpr double kLatest = 0.1;  // [s]
+constexpr const char* kOtherService = "/other/test/plan";
 
 RoiPolygon bowTie() {
   RoiPolygon polygon;
@@ -57,6 +59,20 @@ class Cancel : public testing::Test {
     return loader_.load(ros::names::resolve(name), type, {}, {});
   }
 
+  /// A planner of another vehicle in this process, which plans without noticing that it is cancelled.
+  /// @return  what holds its plans.
+  std::shared_ptr<TestGate> loadOtherVehicle() {
+    XmlRpc::XmlRpcValue vehicle;
+    EXPECT_TRUE(ros::param::get(ros::names::resolve("external_command/vehicle"), vehicle));
+    ros::param::set("/other/external_command/vehicle", vehicle);
+    const auto planner = planner_;
+    EXPECT_TRUE(load("/other/planner", "test/BlockingPlanner"));
+    const auto gate = planner_->holdPlans(false);
+    planner_ = planner;
+    EXPECT_TRUE(ros::service::waitForService(kOtherService, 10000));
+    return gate;
+  }
+
   boost::shared_ptr<nodelet::Nodelet> create(const std::string& type) {
     if (type == "test/BlockingPlanner") return planner_ = boost::make_shared<BlockingPlanner>();
     return classes_.createInstance(type);
@@ -70,12 +86,13 @@ class Cancel : public testing::Test {
   }
 
   /// Calls the planner; the answer comes when its gate is open.
-  static std::future<CommandStatus> plan(std::int64_t command_id, bool dry_run = false) {
-    return std::async(std::launch::async, [command_id, dry_run] {
+  static std::future<CommandStatus> plan(std::int64_t command_id, bool dry_run = false,
+                                         const std::string& service = BlockingPlanner::kService) {
+    return std::async(std::launch::async, [=] {
       PathFollow call;
       call.request.command.command_id = command_id;
       call.request.command.dry_run = dry_run;
-      EXPECT_TRUE(ros::service::call(BlockingPlanner::kService, call));
+      EXPECT_TRUE(ros::service::call(service, call));
       return call.response.status;
     });
   }
@@ -188,6 +205,63 @@ TEST_F(Cancel, EndsWhatWaitsForAThread) {
   expectCancelled(waiting.get(), 7);
   gate->open();
   for (auto& planned : plans) planned.get();
+}
+
+TEST_F(Cancel, EndsAnOlderPlanThoughTheNewerWaitsForAThreadThatAnotherVehicleHas) {
+  const auto others_gate = loadOtherVehicle();
+  auto others = plan(1, false, kOtherService);
+  ASSERT_TRUE(others_gate->waitForEntered(1));
+  const auto gate = planner_->holdPlans(true);
+  auto older = plan(7);
+  ASSERT_TRUE(gate->waitForEntered(1));
+  const auto newer_gate = planner_->holdPlans(true);
+  newer_gate->open();
+  auto newer = plan(8);
+  EXPECT_TRUE(gate->waitForLeft(1)) << "though nobody opened the gate";
+  gate->open();
+  EXPECT_EQ(older.get().error_code, CommandStatus::SUPERSEDED);
+  EXPECT_EQ(newer.get().status, CommandStatus::RUNNING);
+  others_gate->open();
+  EXPECT_EQ(others.get().status, CommandStatus::RUNNING) << "no vehicle cancels what another plans";
+}
+
+TEST_F(Cancel, LeavesAnOlderPlanAloneWhereTheNewerThatWaitsForAThreadHasNoRoute) {
+  const auto others_gate = loadOtherVehicle();
+  auto others = plan(1, false, kOtherService);
+  ASSERT_TRUE(others_gate->waitForEntered(1));
+  const auto gate = planner_->holdPlans(true);
+  auto older = plan(7);
+  ASSERT_TRUE(gate->waitForEntered(1));
+  planner_->setHasRoute(false);
+  auto newer = plan(8);
+  EXPECT_EQ(newer.wait_for(std::chrono::seconds(10)), std::future_status::ready) << "though nobody opened a gate";
+  gate->open();
+  EXPECT_EQ(newer.get().error_code, CommandStatus::NO_ROUTE);
+  EXPECT_EQ(older.get().status, CommandStatus::RUNNING);
+  others_gate->open();
+  others.get();
+}
+
+TEST_F(Cancel, ByAStopEndsWhatIsPlannedAndWhatWaitsForAThread) {
+  ASSERT_TRUE(load("action", "external_command/ActionCommandProcessor"));
+  ASSERT_TRUE(ros::service::waitForService("external_command/action", 10000));
+  const auto others_gate = loadOtherVehicle();
+  auto others = plan(1, false, kOtherService);
+  ASSERT_TRUE(others_gate->waitForEntered(1));
+  const auto gate = planner_->holdPlans(false);
+  auto older = plan(7);
+  ASSERT_TRUE(gate->waitForEntered(1));
+  Inbox<CommandStatus> statuses("external_command/status");
+  auto waiting = plan(8);
+  ASSERT_TRUE(statuses.waitFor(1, [](const CommandStatus& status) { return status.command_id == 8; }));
+  Action stop;
+  stop.request.command.command = ActionCommand::STOP;
+  ASSERT_TRUE(ros::service::call("external_command/action", stop));
+  EXPECT_EQ(waiting.get().error_code, CommandStatus::CANCELLED) << "while no thread is free";
+  gate->open();
+  EXPECT_EQ(older.get().status, CommandStatus::ERROR) << "neither is sent";
+  others_gate->open();
+  EXPECT_EQ(others.get().status, CommandStatus::RUNNING) << "it is the stop of one vehicle";
 }
 
 TEST_F(Cancel, EndsADryRun) {

@@ -8,8 +8,12 @@
 
 #include <atomic>
 #include <future>
+#include <memory>
+#include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "external_command/core/error.h"
@@ -26,43 +30,46 @@ PlanningLimits limits(int threads, int waiting) {
   return made;
 }
 
+constexpr const char* kVehicle = "/apollo";
+constexpr const char* kOther = "/other";
+
 /// Ends a waiting at once: shows that there was one.
 struct HadToWait {};
 void giveUp() { throw HadToWait(); }
 
-TEST(PlanningPool, LetsTheCommandInThatCancelsTheOneInWork) {
+TEST(PlanningPool, PlansTwoCommandsAtOnce) {
   PlanningPool pool(limits(2, 1));
-  const auto older = pool.take(Kind::kCommand, giveUp);
-  const auto newer = pool.take(Kind::kCommand, giveUp);
-  EXPECT_THROW(pool.take(Kind::kCommand, giveUp), HadToWait);
+  const auto older = pool.take(kVehicle, Kind::kCommand, giveUp);
+  const auto newer = pool.take(kVehicle, Kind::kCommand, giveUp);
+  EXPECT_THROW(pool.take(kVehicle, Kind::kCommand, giveUp), HadToWait);
 }
 
 TEST(PlanningPool, IsAlwaysThereForACommandWhateverDryRunsAreInWork) {
   PlanningPool pool(limits(4, 1));
-  const auto a = pool.take(Kind::kDryRun, giveUp);
-  const auto b = pool.take(Kind::kDryRun, giveUp);
-  const auto c = pool.take(Kind::kDryRun, giveUp);
-  EXPECT_THROW(pool.take(Kind::kDryRun, giveUp), HadToWait);
-  EXPECT_NO_THROW(pool.take(Kind::kCommand, giveUp));
+  const auto a = pool.take(kVehicle, Kind::kDryRun, giveUp);
+  const auto b = pool.take(kVehicle, Kind::kDryRun, giveUp);
+  const auto c = pool.take(kVehicle, Kind::kDryRun, giveUp);
+  EXPECT_THROW(pool.take(kVehicle, Kind::kDryRun, giveUp), HadToWait);
+  EXPECT_NO_THROW(pool.take(kVehicle, Kind::kCommand, giveUp));
 }
 
 TEST(PlanningPool, AnswersBusyAtOnceBeyondThoseThatMayWait) {
   PlanningPool pool(limits(2, 1));
-  std::optional<PlanningPool::Slot> in_work(pool.take(Kind::kDryRun, giveUp));
+  std::optional<PlanningPool::Slot> in_work(pool.take(kVehicle, Kind::kDryRun, giveUp));
   std::promise<void> waits;
   std::atomic<bool> has_told{false};
   auto waiting = std::async(std::launch::async, [&] {
-    pool.take(Kind::kDryRun, [&] {
+    pool.take(kVehicle, Kind::kDryRun, [&] {
       if (!has_told.exchange(true)) waits.set_value();
     });
   });
   waits.get_future().wait();
-  EXPECT_THROW(pool.requireRoom(Kind::kDryRun), NotReady);
-  EXPECT_NO_THROW(pool.requireRoom(Kind::kCommand));
+  EXPECT_THROW(pool.requireRoom(kVehicle, Kind::kDryRun), NotReady);
+  EXPECT_NO_THROW(pool.requireRoom(kVehicle, Kind::kCommand));
   EXPECT_EQ(pool.load().dry_runs, 1);
   EXPECT_EQ(pool.load().waiting_dry_runs, 1);
   try {
-    pool.take(Kind::kDryRun, [] { FAIL() << "it must not wait"; });
+    pool.take(kVehicle, Kind::kDryRun, [] { FAIL() << "it must not wait"; });
     FAIL() << "it must be refused";
   } catch (const NotReady& error) {
     EXPECT_NE(std::string(error.what()).find("busy"), std::string::npos) << error.what();
@@ -73,20 +80,94 @@ TEST(PlanningPool, AnswersBusyAtOnceBeyondThoseThatMayWait) {
 
 TEST(PlanningPool, LetsDryRunsWaitBehindCommands) {
   PlanningPool pool(limits(2, 2));
-  std::optional<PlanningPool::Slot> first(pool.take(Kind::kCommand, giveUp));
-  std::optional<PlanningPool::Slot> second(pool.take(Kind::kCommand, giveUp));
+  std::optional<PlanningPool::Slot> first(pool.take(kVehicle, Kind::kCommand, giveUp));
+  std::optional<PlanningPool::Slot> second(pool.take(kVehicle, Kind::kCommand, giveUp));
   std::promise<void> waits;
   std::atomic<bool> has_told{false};
   auto command = std::async(std::launch::async, [&] {
-    pool.take(Kind::kCommand, [&] {
+    pool.take(kVehicle, Kind::kCommand, [&] {
       if (!has_told.exchange(true)) waits.set_value();
     });
   });
   waits.get_future().wait();
-  EXPECT_THROW(pool.take(Kind::kDryRun, giveUp), HadToWait);
+  EXPECT_THROW(pool.take(kVehicle, Kind::kDryRun, giveUp), HadToWait);
   first.reset();
   command.get();
-  EXPECT_NO_THROW(pool.take(Kind::kDryRun, giveUp));
+  EXPECT_NO_THROW(pool.take(kVehicle, Kind::kDryRun, giveUp));
+}
+
+/// Requests of several vehicles that wait, each in a thread of its own.
+class WaitingRequests {
+ public:
+  WaitingRequests(PlanningPool* pool, Kind kind) : pool_(pool), kind_(kind) {}
+
+  /// Returns when it waits.
+  void add(const std::string& vehicle) {
+    const auto waits = std::make_shared<std::promise<void>>();
+    served_.push_back(std::async(std::launch::async, [this, vehicle, waits, has_told = false]() mutable {
+      const auto slot = pool_->take(vehicle, kind_, [&] {
+        if (!std::exchange(has_told, true)) waits->set_value();
+      });
+      const std::lock_guard<std::mutex> lock(mutex_);
+      order_.push_back(vehicle);
+    }));
+    waits->get_future().wait();
+  }
+
+  std::vector<std::string> order() {
+    for (auto& served : served_) served.get();
+    return order_;
+  }
+
+ private:
+  PlanningPool* pool_;
+  Kind kind_;
+  std::mutex mutex_;
+  std::vector<std::string> order_;
+  std::vector<std::future<void>> served_;
+};
+
+TEST(PlanningPool, LetsVehiclesTakeTurnsWhicheverHasMoreToPlan) {
+  for (const Kind kind : {Kind::kCommand, Kind::kDryRun}) {
+    PlanningPool pool(limits(2, 6));
+    std::vector<PlanningPool::Slot> in_work;
+    for (int i = 0; i < (kind == Kind::kCommand ? 2 : 1); ++i) in_work.push_back(pool.take(kVehicle, kind, giveUp));
+    WaitingRequests waiting(&pool, kind);
+    for (int i = 0; i < 3; ++i) waiting.add(kVehicle);
+    for (int i = 0; i < 2; ++i) waiting.add(kOther);
+    in_work.pop_back();
+    EXPECT_EQ(waiting.order(), std::vector<std::string>({kOther, kVehicle, kOther, kVehicle, kVehicle}));
+  }
+}
+
+TEST(PlanningPool, RefusesAVehicleForNoneOfTheRequestsOfAnother) {
+  PlanningPool pool(limits(2, 1));
+  std::optional<PlanningPool::Slot> in_work(pool.take(kVehicle, Kind::kDryRun, giveUp));
+  WaitingRequests waiting(&pool, Kind::kDryRun);
+  waiting.add(kVehicle);
+  EXPECT_THROW(pool.requireRoom(kVehicle, Kind::kDryRun), NotReady);
+  EXPECT_NO_THROW(pool.requireRoom(kOther, Kind::kDryRun));
+  EXPECT_THROW(pool.take(kOther, Kind::kDryRun, giveUp), HadToWait) << "it may wait";
+  in_work.reset();
+  EXPECT_EQ(waiting.order().size(), 1u);
+}
+
+TEST(PlanningPool, LetsTheNextOneInWhereAWaitingOneTakesItsTimeToCheck) {
+  PlanningPool pool(limits(2, 2));
+  std::optional<PlanningPool::Slot> in_work(pool.take(kVehicle, Kind::kDryRun, giveUp));
+  std::promise<void> checks, goes_on;
+  auto slow = std::async(std::launch::async, [&, has_told = false]() mutable {
+    pool.take(kVehicle, Kind::kDryRun, [&] {
+      if (std::exchange(has_told, true)) return;
+      checks.set_value();
+      goes_on.get_future().wait();
+    });
+  });
+  checks.get_future().wait();
+  in_work.reset();
+  EXPECT_NO_THROW(pool.take(kOther, Kind::kDryRun, giveUp));
+  goes_on.set_value();
+  slow.get();
 }
 
 TEST(PlanningPool, PlansOnThreadsOfItsOwnBelowNormalPriority) {
@@ -95,7 +176,7 @@ TEST(PlanningPool, PlansOnThreadsOfItsOwnBelowNormalPriority) {
   PlanningPool pool(limits(2, 1));
   std::thread::id planner;
   int niceness = 0;
-  pool.take(Kind::kCommand, giveUp).run([&] {
+  pool.take(kVehicle, Kind::kCommand, giveUp).run([&] {
     planner = std::this_thread::get_id();
     niceness = getpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)));
   });
@@ -105,15 +186,15 @@ TEST(PlanningPool, PlansOnThreadsOfItsOwnBelowNormalPriority) {
 
 TEST(PlanningPool, HandsOverWhatThePlanningThrows) {
   PlanningPool pool(limits(2, 1));
-  const auto slot = pool.take(Kind::kCommand, giveUp);
+  const auto slot = pool.take(kVehicle, Kind::kCommand, giveUp);
   EXPECT_THROW(slot.run([] { throw NotReady("no pose"); }), NotReady);
   EXPECT_NO_THROW(slot.run([] {}));
 }
 
 TEST(PlanningPool, ForgetsWhoGaveUpWaiting) {
   PlanningPool pool(limits(2, 1));
-  const auto in_work = pool.take(Kind::kDryRun, giveUp);
-  for (int i = 0; i < 3; ++i) EXPECT_THROW(pool.take(Kind::kDryRun, giveUp), HadToWait) << i;
+  const auto in_work = pool.take(kVehicle, Kind::kDryRun, giveUp);
+  for (int i = 0; i < 3; ++i) EXPECT_THROW(pool.take(kVehicle, Kind::kDryRun, giveUp), HadToWait) << i;
 }
 
 TEST(PlanningPool, RefusesLimitsOutOfRange) {

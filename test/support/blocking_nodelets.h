@@ -4,6 +4,7 @@
 #include <nodelet/nodelet.h>
 #include <ros/callback_queue.h>
 
+#include <atomic>
 #include <boost/make_shared.hpp>
 #include <chrono>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -109,6 +111,9 @@ class BlockingProcessor : public MotionCommandProcessor<Service> {
     return gate_;
   }
 
+  /// Whether there is a route to where the commands lead from now on.
+  void setHasRoute(bool has_route) { has_route_ = has_route; }
+
   bool seesVehicleAt(double x) const {
     try {
       return std::abs(this->context().vehiclePose().get().x - x) < 0.01;
@@ -119,6 +124,11 @@ class BlockingProcessor : public MotionCommandProcessor<Service> {
 
  private:
   void check(const Command& /*command*/) const override {}
+
+  std::optional<RoutingTask> convert(const Command& /*command*/, const PlanStart& /*start*/) override {
+    if (!has_route_) throw NoRoute("the test has taken the route away");
+    return std::nullopt;
+  }
 
   void processSpecialCommand(const Command& /*command*/, const CancelToken& cancel, MotionPlan* plan) override {
     std::unique_lock<std::mutex> lock(mutex_);
@@ -135,6 +145,7 @@ class BlockingProcessor : public MotionCommandProcessor<Service> {
   std::mutex mutex_;
   std::shared_ptr<TestGate> gate_ = std::make_shared<TestGate>();
   bool polls_cancel_ = true;
+  std::atomic<bool> has_route_{true};
 };
 
 class BlockingPlanner : public BlockingProcessor<PathFollow> {

@@ -24,8 +24,8 @@ namespace external_command {
 ///                       destructor.
 /// A derived class must  poll the cancel token in every long loop: a stop or a newer command raises it.
 /// A derived class may   override planningTime(), isPlannedAtOnce() and beginsAtVehicle(), and set MotionPlan::on_sent.
-/// The hooks that plan run on a planning thread, below normal priority, but for plans that are made at once; no lock is
-/// held.
+/// The hooks that plan run on a planning thread, below normal priority, but for plans that are made at once, and for
+/// convert() of a command that has to wait for such a thread; no lock is held.
 template <class Service>
 class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
  public:
@@ -67,8 +67,8 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
     this->parameters().readName("planning_command_history_name", &history);
     flow_.emplace(this->context(), this->outputTopics("planning/command"), history);
     this->needs("planner", [this] { return flow_->plannerWords(); });
-    this->needs("planning", [&pool = this->context().planningPool()] {
-      pool.requireRoom(PlanningPool::Kind::kCommand);
+    this->needs("planning", [&context = this->context()] {
+      context.planningPool().requireRoom(context.vehicleName(), PlanningPool::Kind::kCommand);
       return "commands are planned";
     });
   }
@@ -84,12 +84,7 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
     const PlansInWork::Entry entry(&plans_in_work_, admitted.serial, planning);
     const PlansInWork::Entry cancellable(&this->context().plansInWork(), admitted.serial, planning);
     this->context().registry().requireRunning(admitted);  // it may have been cancelled before it could be found there
-    const auto slot = this->context().planningPool().take(
-        command.dry_run ? PlanningPool::Kind::kDryRun : PlanningPool::Kind::kCommand, [&] {
-          requireLoaded();
-          if (!command.dry_run) this->context().gate().requireNewest(admitted);
-          planning.token().throwIfCancelled();
-        });
+    const auto slot = takeSlot(command, admitted, planning);
     try {
       return command.dry_run ? planDry(command, slot, planning.token(), response)
                              : planAndSend(command, admitted, slot, planning, response);
@@ -101,6 +96,28 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
   }
 
  private:
+  PlanningPool::Slot takeSlot(const Command& command, const AdmittedCommand& admitted, const CancelSource& planning) {
+    const auto kind = command.dry_run ? PlanningPool::Kind::kDryRun : PlanningPool::Kind::kCommand;
+    bool has_begun = command.dry_run;
+    return this->context().planningPool().take(this->context().vehicleName(), kind, [&] {
+      requireLoaded();
+      if (!command.dry_run) this->context().gate().requireNewest(admitted);
+      planning.token().throwIfCancelled();
+      if (!has_begun) beginBeforeItsTurn(command, admitted, planning);
+      has_begun = true;
+    });
+  }
+
+  /// While a command waits, an older one of the vehicle must not be planned on, and sent. Only one that has a route may
+  /// cancel it; where the vehicle is may have changed by the time of planning, so nothing of this is kept.
+  void beginBeforeItsTurn(const Command& command, const AdmittedCommand& admitted, const CancelSource& planning) {
+    const PlanStart here = this->context().motionWatch().startFor(0.0);
+    const double horizon = horizonOf(command, here);
+    const PlanStart start = horizon > 0.0 ? this->context().motionWatch().startFor(horizon) : here;
+    if (const auto task = convert(command, start)) flow_->requireRoute(*task, planning.token());
+    this->context().gate().begin(admitted, planning);
+  }
+
   CommandStatus planDry(const Command& command, const PlanningPool::Slot& slot, const CancelToken& cancel,
                         Response* response) {
     const ros::SteadyTime begin = ros::SteadyTime::now();
@@ -146,7 +163,7 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
     for (int tries = 1;; ++tries) {
       const ros::SteadyTime try_begin = ros::SteadyTime::now();
       const PlanStart here = this->context().motionWatch().startFor(0.0);
-      if (tries == 1 && is_at_vehicle && here.isKnown()) horizon = planningTime(command, here.pose());
+      if (tries == 1) horizon = horizonOf(command, here);
       MotionPlan plan(horizon > 0.0 ? this->context().motionWatch().startFor(horizon) : here);
       const double speed = flow_->cappedSpeed(command.target_speed, &plan.report);
       // The route first, a matter of a millisecond: a command without one must not disturb what is being planned.
@@ -163,6 +180,10 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
       flow_->complete(command.command_id, speed, &plan);
       return plan;
     }
+  }
+
+  double horizonOf(const Command& command, const PlanStart& here) const {
+    return beginsAtVehicle(command) && here.isKnown() ? planningTime(command, here.pose()) : 0.0;
   }
 
   static void requireAnotherTry(int tries, double took) {

@@ -16,6 +16,9 @@ class MotionFlow {
  public:
   MotionFlow(ProcessContext& context, const std::vector<std::string>& command_topics, const std::string& history_topic);
 
+  /// @throws NoRoute  there is none. @throws InvalidRequest  it is longer than PathBounds allow.
+  void requireRoute(const RoutingTask& task, const CancelToken& cancel) const { routeOf(task, cancel); }
+
   /// Searches the route and starts `plan` with its reference path.
   void addRoute(const RoutingTask& task, double target_speed, const CancelToken& cancel, MotionPlan* plan) const;
 
@@ -45,6 +48,7 @@ class MotionFlow {
   double cappedSpeed(double target_speed, PlanReport* report) const;
 
  private:
+  Route routeOf(const RoutingTask& task, const CancelToken& cancel) const;
   std::optional<Pose2d> startOnLane(const RoutingTask& task) const;
 
   ProcessContext& context_;

@@ -89,6 +89,9 @@ class ProcessContext {
 
   const ContextParams& params() const { return params_; }
 
+  /// The namespace, which tells the vehicles of one process apart.
+  const std::string& vehicleName() const { return nh_.getNamespace(); }
+
   /// nullptr where no map is configured.
   const Router* router() const { return router_.get(); }
 
