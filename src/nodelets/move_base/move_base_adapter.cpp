@@ -39,6 +39,7 @@ double headingOf(const geometry_msgs::Quaternion& given, const std::string& name
 }  // namespace
 
 MoveBaseAdapter::~MoveBaseAdapter() {
+  endPlans();
   make_plan_.shutdown();
   if (front_) front_->close();
   {
@@ -185,16 +186,28 @@ nav_msgs::GetPlan::Response MoveBaseAdapter::makePlan(const nav_msgs::GetPlan::R
   response.plan.header.frame_id = context().params().map_frame;
   response.plan.header.stamp = ros::Time::now();
   try {
-    for (const PathPoint& point : findPlan(request, caller).points) {
+    PlannedPath path;
+    plan_line_.run([&] { path = findPlan(request, caller); });
+    for (const PathPoint& point : path.points) {
       response.plan.poses.push_back(
           toPoseStamped({point.x, point.y, point.heading}, response.plan.header.frame_id, response.plan.header.stamp));
     }
   } catch (...) {
     // move_base answers with an empty plan, too.
-    logLater(LogLevel::kWarn,
-             text(getName(), ": no plan for ", caller, ": ", statusFrom(std::current_exception(), 0).message));
+    tellNoPlan(caller, statusFrom(std::current_exception(), 0));
   }
   return response;
+}
+
+void MoveBaseAdapter::tellNoPlan(const std::string& caller, const CommandStatus& status) {
+  const std::string line = text(getName(), ": no plan for ", caller, ": ", status.message);
+  if (status.error_code != CommandStatus::NOT_READY) return logLater(LogLevel::kWarn, line);
+  logLater(LogLevel::kWarn, busy_log_, line);  // who is told that tends to ask again at once
+  busy_pace_.pauseIfFlooded();
+}
+
+void MoveBaseAdapter::endPlans() {
+  plan_line_.end([this] { context().cancelById(plan_in_work_, "the unloading of " + getName()); });
 }
 
 PlannedPath MoveBaseAdapter::findPlan(const nav_msgs::GetPlan::Request& request, const std::string& caller) {
@@ -204,7 +217,11 @@ PlannedPath MoveBaseAdapter::findPlan(const nav_msgs::GetPlan::Request& request,
   goal.pose = toGoal(request.goal, "goal", uses_heading_);
   goal.has_heading = uses_heading_;
   if (!request.start.header.frame_id.empty()) goal.start = toGoal(request.start, "start", true);
-  const auto run = [&](const GoalPoseService::Goal& tried) { return service_->call(getNodeHandle(), tried, {}); };
+  const auto run = [&](GoalPoseService::Goal tried) {
+    plan_line_.throwIfEnded();
+    tried.command_id = plan_in_work_ = next_id_++;
+    return service_->call(getNodeHandle(), tried, {});
+  };
   return external_command::findPlan(run, goal, request.tolerance);
 }
 

@@ -12,8 +12,10 @@
 
 #include "external_command/ros/caller_limits.h"
 #include "external_command/ros/command_processor.h"
+#include "external_command/ros/refusal_pace.h"
 #include "goal_pose_service.h"
 #include "move_base_front.h"
+#include "plan_line.h"
 
 namespace external_command {
 
@@ -53,7 +55,13 @@ class MoveBaseAdapter : public CommandProcessor {
   void cancelInWork(const std::string& id, const std::string& by);
 
   nav_msgs::GetPlan::Response makePlan(const nav_msgs::GetPlan::Request& request, const std::string& caller);
+  void tellNoPlan(const std::string& caller, const CommandStatus& status);
   PlannedPath findPlan(const nav_msgs::GetPlan::Request& request, const std::string& caller);
+
+  /// Lets no plan be made any more, and waits until the one in work has ended. To be called before the service is taken
+  /// back: that waits for who is being answered, and roscpp before 1.15.10 keeps the one who plans from looking up its
+  /// service meanwhile.
+  void endPlans();
 
   /// In the map frame. @param has_heading  false: the orientation is not looked at.
   /// @throws InvalidRequest  not finite, not a rotation about the vertical, or of a frame that tf does not know.
@@ -72,7 +80,13 @@ class MoveBaseAdapter : public CommandProcessor {
 
   std::unique_ptr<ActionGoals> goals_;
   std::unique_ptr<MoveBaseFront> front_;
-  Executor plans_{ExecutorOptions{"the move_base adapter's executor of plans"}};
+  static constexpr unsigned kMostWaitingPlans = 4;
+  PlanLine plan_line_{kMostWaitingPlans};
+  std::atomic<std::int64_t> plan_in_work_{0};  ///< the id of its dry run
+  RefusalPace busy_pace_{1};
+  LogThrottle busy_log_{1.0};
+  /// One for the plan in work, for each that waits, and two that say "busy", of which one may pause.
+  Executor plans_{ExecutorOptions{"the move_base adapter's executor of plans", kMostWaitingPlans + 3}};
   ros::ServiceServer make_plan_;
   Executor calls_{ExecutorOptions{"the move_base adapter's executor of calls"}};
 };
