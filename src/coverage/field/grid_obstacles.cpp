@@ -19,8 +19,6 @@ constexpr double kHullShare = 1.3;  ///< of an obstacle's area that its convex h
 constexpr double kSmall = 3.0;      ///< an obstacle up to this size is taken as its hull [m]
 constexpr double kRoom = 6.0;       ///< free room inside an obstacle that is smaller holds no vehicle [m^2]
 
-using Block = std::pair<long, long>;  // row, column
-
 class Outliner {
  public:
   Outliner(const OccupancyGrid& grid, const Polygon& within, std::size_t max_rows, const Checkpoint& checkpoint)
@@ -31,14 +29,11 @@ class Outliner {
         cells_(std::max(1L, std::lround(kFinest / grid.resolution))) {}
 
   std::vector<Polygon> outline() {
-    findBlocks();
     std::vector<shapes::Shapes> runs;
-    for (auto block = blocks_.begin(); block != blocks_.end();) {
-      const Block first = *block;
-      long end = first.second;
-      while (block != blocks_.end() && block->first == first.first && block->second == end) ++block, ++end;
-      requireFew(runs.size());
-      runs.push_back(only(runShape(first.first, first.second, end)));
+    std::vector<bool> row(static_cast<std::size_t>(blockOf(grid_.width - 1)) + 1);
+    for (long index = 0; index <= blockOf(grid_.height - 1); ++index) {
+      findBlocks(index, &row);
+      addRuns(index, row, &runs);
     }
     std::vector<Polygon> polygons;
     for (const shapes::Shape& shape : unionOf(std::move(runs), checkpoint_)) addOutlines(shape, &polygons);
@@ -59,19 +54,36 @@ class Outliner {
                               "(~coverage/max_grid_rows); give a smaller area, or a grid with less noise"));
   }
 
-  void findBlocks() {
-    for (std::size_t i = 0; i < grid_.cells.size(); ++i) {
-      if (i % grid_.width == 0) checkpoint_();
-      if (!isBlocked(grid_.cells[i])) continue;
-      const auto column = static_cast<long>(i % grid_.width), row = static_cast<long>(i / grid_.width);
-      const Point2d at = toMap((static_cast<double>(column) + 0.5) * grid_.resolution,
-                               (static_cast<double>(row) + 0.5) * grid_.resolution);
-      const bool is_near = ((at - box_.min).array() > -kNear).all() && ((box_.max - at).array() > -kNear).all();
-      const Block block{row / cells_, column / cells_};
-      if (is_near && (blocks_.empty() || blocks_.back() != block)) blocks_.push_back(block);
+  long blockOf(std::size_t cell) const { return static_cast<long>(cell) / cells_; }
+
+  /// One row of blocks at a time: those of a whole grid would take far more memory than the grid.
+  /// @param row  becomes true where a cell of the block is an obstacle near the area.
+  void findBlocks(long index, std::vector<bool>* row) const {
+    std::fill(row->begin(), row->end(), false);
+    const auto first = static_cast<std::size_t>(index * cells_);
+    const std::size_t end = std::min<std::size_t>(first + static_cast<std::size_t>(cells_), grid_.height);
+    for (std::size_t y = first; y < end; ++y) {
+      checkpoint_();
+      for (std::size_t x = 0; x < grid_.width; ++x) {
+        const auto block = static_cast<std::size_t>(blockOf(x));
+        if (!(*row)[block] && isBlocked(grid_.cells[y * grid_.width + x]) && isNear(x, y)) (*row)[block] = true;
+      }
     }
-    std::sort(blocks_.begin(), blocks_.end());
-    blocks_.erase(std::unique(blocks_.begin(), blocks_.end()), blocks_.end());
+  }
+
+  bool isNear(std::size_t x, std::size_t y) const {
+    const Point2d at =
+        toMap((static_cast<double>(x) + 0.5) * grid_.resolution, (static_cast<double>(y) + 0.5) * grid_.resolution);
+    return ((at - box_.min).array() > -kNear).all() && ((box_.max - at).array() > -kNear).all();
+  }
+
+  void addRuns(long index, const std::vector<bool>& row, std::vector<shapes::Shapes>* runs) const {
+    for (auto begin = std::find(row.begin(), row.end(), true); begin != row.end();) {
+      const auto end = std::find(begin, row.end(), false);
+      requireFew(runs->size());
+      runs->push_back(only(runShape(index, begin - row.begin(), end - row.begin())));
+      begin = std::find(end, row.end(), true);
+    }
   }
 
   shapes::Shape runShape(long row, long begin, long end) const {
@@ -134,8 +146,7 @@ class Outliner {
   const BoundingBox& box_;
   const std::size_t max_rows_;
   const Checkpoint& checkpoint_;
-  long cells_;                 ///< in a block, along each side
-  std::vector<Block> blocks_;  ///< in order
+  const long cells_;  ///< in a block, along each side
 };
 
 }  // namespace

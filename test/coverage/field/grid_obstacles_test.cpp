@@ -2,8 +2,12 @@
 // Obstacle grids of any shape: an area is planned, or refused with a reason, and in time.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <random>
+#include <stdexcept>
+#include <string>
 #include <thread>
 
 #include "external_command/core/error.h"
@@ -92,6 +96,39 @@ TEST(GridObstacles, OfNoiseEndWhenTheyAreCancelled) {
   });
   EXPECT_LT(planOrRefuse(areaWith(gridOfNoise(0.2, 1000)), 3600.0, cancel.token()), 5.0);
   later.join();
+}
+
+/// Starts to measure anew the most memory that the process has held.
+void forgetPeakMemory() { std::ofstream("/proc/self/clear_refs") << "5"; }
+
+/// Of the process [MB].
+double memory(const std::string& which) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.rfind(which + ":", 0) == 0) return std::stod(line.substr(which.size() + 1)) / 1024.0;
+  }
+  throw std::runtime_error("/proc/self/status has no " + which);
+}
+
+/// Beside that of the area itself [MB].
+double memoryToPlan(const CoverageArea& area) {
+  const double before = memory("VmRSS");
+  forgetPeakMemory();
+  planOrRefuse(area, 5.0);
+  return memory("VmHWM") - before;
+}
+
+TEST(GridObstacles, TakeNoMoreMemoryThanTheirRowsWhetherRefusedOrPlanned) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "what is freed is kept for a while, and memory has a shadow";
+#endif
+  CoverageArea area = areaWith(emptyGrid(8000));
+  auto& cells = area.grid->cells;
+  constexpr double kMost = 250.0;  // [MB], of which a copy of the grid has 64
+  std::fill(cells.begin(), cells.end(), 100);
+  EXPECT_LT(memoryToPlan(area), kMost) << "everything is blocked";
+  for (std::size_t i = 0; i < cells.size(); ++i) cells[i] = (i / 8000 + i) % 2 == 0 ? 100 : 0;
+  EXPECT_LT(memoryToPlan(area), kMost) << "a chessboard";
 }
 
 TEST(GridObstacles, TooManyAreRefused) {
