@@ -23,9 +23,10 @@ using Clock = std::chrono::steady_clock;
 /// How far before the place where a line was left it may be begun again, in turning radii.
 constexpr std::array<double, 4> kBack = {0.0, 0.5, 1.0, 2.0};
 
-bool isSame(const Pose2d& a, const Pose2d& b) {
-  constexpr double kRounding = 1e-6;
-  return (a.position() - b.position()).norm() < kRounding && std::abs(angleBetween(a.heading, b.heading)) < kRounding;
+constexpr double kOnLine = 5e-4;  ///< a vehicle that far from a line is on it [m], [rad]
+
+bool isSame(const Pose2d& a, const Pose2d& b, double rounding = 1e-6) {
+  return (a.position() - b.position()).norm() < rounding && std::abs(angleBetween(a.heading, b.heading)) < rounding;
 }
 
 /// The lines to be driven, in the field's frame, and the ways to them as planned.
@@ -86,7 +87,7 @@ class PathBuilder {
       return;
     }
     for (const Approach& approach : approaches) {
-      if (at_ && !transfer(index, approach.way)) continue;
+      if (at_ && !approach.is_here && !transfer(index, approach.way)) continue;
       work(index, approach);
       return;
     }
@@ -114,7 +115,8 @@ class PathBuilder {
   struct Approach {
     double from = 0.0;  ///< [m]
     Curve way;
-    double cost = 0.0;  ///< about what it takes to get there, and what is driven twice [m]
+    double cost = 0.0;     ///< about what it takes to get there, and what is driven twice [m]
+    bool is_here = false;  ///< the vehicle is there
   };
 
   /// The whole line; or where the rest of it may be begun, the cheapest first: a vehicle that stands beside the line
@@ -125,6 +127,11 @@ class PathBuilder {
     if (swept <= 0.0) {
       if (field_.isBarelyFree(line)) approaches.push_back({0.0, line, 0.0});
       return approaches;
+    }
+    if (const std::optional<double> here = placeOn(line, swept)) {
+      approaches.push_back({*here, partOf(line, *here, line.length()), 0.0, true});
+      if (field_.isBarelyFree(approaches.back().way)) return approaches;
+      approaches.clear();
     }
     double last = -1.0;
     for (const double back : kBack) {
@@ -138,6 +145,20 @@ class PathBuilder {
     std::stable_sort(approaches.begin(), approaches.end(),
                      [](const Approach& a, const Approach& b) { return a.cost < b.cost; });
     return approaches;
+  }
+
+  /// Where on the line the vehicle is, if that is where it was left, by some centimetres: one that is working on it
+  /// just goes on, and needs no way to get there.
+  std::optional<double> placeOn(const Curve& line, double swept) const {
+    if (!at_) return std::nullopt;
+    double place = swept;
+    // On an arc, each step comes a good deal nearer.
+    for (int i = 0; i < 3 && !isSame(poseAt(line, place), *at_); ++i) {
+      const Pose2d pose = poseAt(line, place);
+      place += unitVector(pose.heading).dot(at_->position() - pose.position());
+    }
+    const bool is_near = std::abs(place - swept) <= CoverageProgress::kLineEnd && place < line.length();
+    return is_near && isSame(poseAt(line, place), *at_, kOnLine) ? std::optional(place) : std::nullopt;
   }
 
   /// As if nothing were in the way.

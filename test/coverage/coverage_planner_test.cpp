@@ -193,6 +193,25 @@ TEST(CoveragePlanner, DrivesTheRestOfALapThatWasBegun) {
   }
 }
 
+TEST(CoveragePlanner, GoesOnWhereTheVehicleIsOnTheLineThoughThatIsNotQuiteWhereItWasLeft) {
+  const CoverageArea area{box(0, 0, 40, 30), {}};
+  const CoverageResult whole = plannedWithLaps(area, kStart);
+  const Swath& lap = whole.swaths.front();
+  for (const double share : {0.1, 0.5, 0.9}) {
+    const std::size_t reached = lap.first + static_cast<std::size_t>(share * (lap.last - lap.first));
+    const double at = whole.path[reached].s - whole.path[lap.first].s;
+    for (const double shift : {-0.1, 0.1}) {
+      CoverageProgress progress = progressOf(whole, 0);
+      progress.sweep(lap.index, at + shift);
+      const CoverageResult rest = plannedWithLaps(area, whole.path[reached].pose(), progress);
+      EXPECT_EQ(rest.swaths.front().first, 0u) << "there is no way to go there";
+      EXPECT_NEAR(rest.swaths.front().from, at, 1e-3);
+      EXPECT_LE(rest.gear_changes, whole.gear_changes);
+      EXPECT_TRUE(isDrivable(rest.path, area));
+    }
+  }
+}
+
 TEST(CoveragePlanner, BacksUpALittleToARestThatTheVehicleStandsBeside) {
   const CoverageArea area{box(0, 0, 40, 30), {}};
   const CoverageResult whole = plannedWithLaps(area, kStart);

@@ -14,10 +14,12 @@ from external_command.msg import (ActionCommand, CommandStatus, FreeSpaceCommand
                                   ZoneCoverCommand)
 from external_command.srv import Action, FreeSpace, ZoneCover
 from vehicle import Vehicle
+from zone_yard import percent_of
 
 FAST = 10.0  # [m/s]
 NEAR = 3.0  # from the vehicle, when the test sees it, to the begin of the path, where messages take 0.2 s [m]
 TRIES = 3
+GOES_ON = 25.0  # of a path, along what the vehicle was driving [m]
 
 
 class MovingVehicleTest(unittest.TestCase):
@@ -72,6 +74,32 @@ class MovingVehicleTest(unittest.TestCase):
             return ZoneCoverCommand(drivable_roi=RoiPolygon(points=[Point(p.x, p.y, 0.0) for p in corners]),
                                     swath_width=4.0)
         self.assert_taken_over(self.send("zone_cover", ZoneCover, command))
+
+    def test_on_with_the_zone_that_it_sweeps_already(self):
+        corners = self.vehicle.ahead((-20.0, -20.0), (100.0, -20.0), (100.0, 20.0), (-20.0, 20.0))
+        zone = RoiPolygon(points=[Point(p.x, p.y, 0.0) for p in corners])
+
+        def sweep(resume):
+            status = self.send("zone_cover", ZoneCover, lambda: ZoneCoverCommand(
+                drivable_roi=zone, swath_width=4.0, resume=resume))
+            self.assertEqual(status.status, CommandStatus.RUNNING, support.describe(status))
+            return self.commands.wait_for(lambda m: m.command_id == status.command_id, "the command")
+
+        first = sweep(False)
+        support.wait_until(lambda: percent_of(support.command_status(first.command_id).message) >= 1, "1 % is swept",
+                           60.0)
+        resumed = sweep(True)
+        path = [point for point in resumed.path.points if point.s < GOES_ON]
+        self.assertGreater(len(path), 10)
+        for point in path:
+            nearest = min((p for p in first.path.points if p.direction == point.direction),
+                          key=lambda p: math.hypot(p.x - point.x, p.y - point.y) + abs(math.sin(
+                              (p.heading - point.heading) / 2.0)))
+            self.assertEqual(point.direction, 1, "it backs up after %.1f m" % point.s)
+            self.assertLess(math.hypot(nearest.x - point.x, nearest.y - point.y), 0.3, "after %.1f m" % point.s)
+        swept = percent_of(support.command_status(resumed.command_id).message)
+        support.wait_until(lambda: percent_of(support.command_status(resumed.command_id).message) > max(swept, 1),
+                           "it sweeps on", 60.0)
 
 
 if __name__ == "__main__":

@@ -27,6 +27,16 @@ void requireStartHeading(const ZoneCoverCommand& command) {
   throw InvalidRequest("way_point[0].has_heading is false; the start of a zone needs a heading");
 }
 
+/// A vehicle that sweeps on while its plan is made must not come back for what it has swept meanwhile.
+/// @throws InvalidRequest  nothing is left then.
+CoverageProgress afterwards(CoverageProgress progress, const std::vector<Swath>& on_the_way) {
+  for (const Swath& swath : on_the_way) progress.sweep(swath.index, swath.from + swath.length);
+  if (!on_the_way.empty() && progress.countDone() == progress.lines.size()) {
+    throw InvalidRequest("resume: the vehicle is about to sweep the last of this zone; let the running command end");
+  }
+  return progress;
+}
+
 }  // namespace
 
 CoverageParams readCoverageParams(const ParameterReader& reader) {
@@ -216,6 +226,12 @@ CoverageProgress ZoneCoverCommandProcessor::progressOf(const ZoneCoverCommand& c
   return *std::move(kept);
 }
 
+std::vector<Swath> ZoneCoverCommandProcessor::sweptUntil(const PlanStart& start, const ZonePlanFile& file) {
+  const std::lock_guard<std::mutex> lock(sweep_mutex_);
+  if (!sweep_ || sweep_->is_over || sweep_->path != file.path()) return {};
+  return sweep_->zone.swathsOn(start.approach());
+}
+
 void ZoneCoverCommandProcessor::appendCoverage(const CoverageResult& coverage, MotionPlan* plan) const {
   plan->path = join(plan->path, coverage.path);
   PlanReport& report = plan->report;
@@ -243,7 +259,9 @@ void ZoneCoverCommandProcessor::processSpecialCommand(const ZoneCoverCommand& co
   CoverageParams timed = params;
   timed.time_budget = std::max(deadline.left(), kLeastBudget);
   const CoveragePlanner planner(context().params().vehicle, timed);
-  CoverageResult coverage = planner.plan(zone, start, progress, cancel);
+  std::vector<Swath> on_the_way;
+  if (command.resume && beginsAtVehicle(command) && plan->path.empty()) on_the_way = sweptUntil(plan->start, file);
+  CoverageResult coverage = planner.plan(zone, start, afterwards(progress, on_the_way), cancel);
   const std::size_t offset = plan->path.empty() ? 0 : plan->path.size() - 1;  // join() shares the point between both
   appendCoverage(coverage, plan);
   plan->scene.start = plan->path.front().pose();
@@ -254,8 +272,10 @@ void ZoneCoverCommandProcessor::processSpecialCommand(const ZoneCoverCommand& co
   plan->command.custom_command = packAny(command);
   if (command.dry_run) return;
   progress.lines = std::move(coverage.lines);
-  auto planned = std::make_shared<PlannedSweep>(
-      PlannedSweep{file.path(), taskOf(std::move(progress), coverage, offset), command.resume != 0, nullptr});
+  ZoneTask task = taskOf(std::move(progress), coverage, offset);
+  putInFront(std::move(on_the_way), plan->start.approach(), &task);
+  auto planned =
+      std::make_shared<PlannedSweep>(PlannedSweep{file.path(), std::move(task), command.resume != 0, nullptr});
   planned->draft = keeper_->draft(file, planned->task.progress);
   if (!planned->draft->failure().empty()) {
     plan->report.warnings.push_back(

@@ -55,6 +55,8 @@ class ZoneCoverCommandProcessor : public MotionCommandProcessor<ZoneCover> {
   ZonePlanFile fileOf(const ZoneCoverCommand& command, const CoverageArea& zone, const CoverageParams& params) const;
   CoverageProgress progressOf(const ZoneCoverCommand& command, const CoverageArea& zone, const CoverageParams& params,
                               const ZonePlanFile& file, const CancelToken& cancel);
+  /// What a vehicle that sweeps this zone already sweeps until it is at plan.start, with points of the way there.
+  std::vector<Swath> sweptUntil(const PlanStart& start, const ZonePlanFile& file);
   void appendCoverage(const CoverageResult& coverage, MotionPlan* plan) const;
   /// The sweep was sent: it replaces the one before, and its file that one's.
   void begin(PlannedSweep* planned, const SentMotion& motion);

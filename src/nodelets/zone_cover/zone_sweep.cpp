@@ -2,6 +2,8 @@
 #include "zone_sweep.h"
 
 #include <algorithm>
+#include <iterator>
+#include <optional>
 #include <utility>
 
 #include "external_command/core/error.h"
@@ -22,6 +24,37 @@ void cutFront(std::size_t points, Swath* swath) {
   swath->covered_area -= before;
 }
 
+/// What lies beyond `last`, a point of `path`.
+void cutBack(const Path& path, std::size_t last, Swath* swath) {
+  const double start = path[swath->first].s;
+  swath->length *= (path[last].s - start) / (path[swath->last].s - start);
+  swath->covered.resize(last - swath->first + 1);
+  swath->covered_area = swath->covered.back();
+  swath->last = last;
+}
+
+std::vector<Swath> shifted(std::vector<Swath> swaths, std::ptrdiff_t points) {
+  std::vector<Swath> kept;
+  for (Swath& swath : swaths) {
+    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(swath.first) + points;
+    const std::ptrdiff_t last = static_cast<std::ptrdiff_t>(swath.last) + points;
+    if (last <= 0) continue;
+    if (first < 0) cutFront(static_cast<std::size_t>(-first), &swath);
+    swath.first = static_cast<std::size_t>(std::max<std::ptrdiff_t>(first, 0));
+    swath.last = static_cast<std::size_t>(last);
+    kept.push_back(std::move(swath));
+  }
+  return kept;
+}
+
+/// The point of `path` that `point` is a copy of.
+std::optional<std::size_t> indexOf(const Path& path, const ReferencePoint& point) {
+  const auto isBefore = [](const ReferencePoint& a, const ReferencePoint& b) { return a.s < b.s; };
+  const auto found = std::lower_bound(path.begin(), path.end(), point, isBefore);
+  const bool is_it = found != path.end() && found->s == point.s && found->x == point.x && found->y == point.y;
+  return is_it ? std::optional(static_cast<std::size_t>(found - path.begin())) : std::nullopt;
+}
+
 }  // namespace
 
 ZoneTask taskOf(CoverageProgress progress, const CoverageResult& coverage, std::size_t offset) {
@@ -35,22 +68,23 @@ ZoneTask taskOf(CoverageProgress progress, const CoverageResult& coverage, std::
   return task;
 }
 
+void putInFront(std::vector<Swath> swaths, const Path& approach, ZoneTask* task) {
+  for (const Swath& swath : swaths) task->covered_before = std::max(0.0, task->covered_before - swath.covered_area);
+  task->approach = std::move(swaths);
+  task->approach_end = approach.empty() ? 0 : approach.size() - 1;
+}
+
 void shiftPoints(std::ptrdiff_t points, ZoneTask* task) {
-  std::vector<Swath> kept;
-  for (Swath& swath : task->swaths) {
-    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(swath.first) + points;
-    const std::ptrdiff_t last = static_cast<std::ptrdiff_t>(swath.last) + points;
-    if (last <= 0) continue;
-    if (first < 0) cutFront(static_cast<std::size_t>(-first), &swath);
-    swath.first = static_cast<std::size_t>(std::max<std::ptrdiff_t>(first, 0));
-    swath.last = static_cast<std::size_t>(last);
-    kept.push_back(std::move(swath));
-  }
-  task->swaths = std::move(kept);
+  std::vector<Swath> swaths =
+      shifted(std::move(task->approach), points - static_cast<std::ptrdiff_t>(task->approach_end));
+  std::vector<Swath> planned = shifted(std::move(task->swaths), points);
+  swaths.insert(swaths.end(), std::make_move_iterator(planned.begin()), std::make_move_iterator(planned.end()));
+  task->swaths = std::move(swaths);
+  task->approach.clear();
 }
 
 ZoneSweep::ZoneSweep(ZoneTask task, std::shared_ptr<const Path> path)
-    : task_(std::move(task)), tracker_(std::move(path), task_.swaths) {
+    : task_(std::move(task)), path_(std::move(path)), tracker_(path_, task_.swaths) {
   if (task_.swaths.empty()) throw InternalError("a zone is to be swept by a path without swaths");
 }
 
@@ -77,6 +111,19 @@ bool ZoneSweep::takeOver(const CoverageProgress& earlier) {
   const std::vector<double> before = task_.progress.swept;
   task_.progress.merge(earlier);
   return task_.progress.swept != before;
+}
+
+std::vector<Swath> ZoneSweep::swathsOn(const Path& stretch) const {
+  if (stretch.empty()) return {};
+  const std::optional<std::size_t> first = indexOf(*path_, stretch.front()), last = indexOf(*path_, stretch.back());
+  if (!first || !last || *last - *first + 1 != stretch.size()) return {};
+  std::vector<Swath> swaths;
+  for (Swath swath : task_.swaths) {
+    if (swath.first >= *last || swath.last <= *first) continue;
+    if (swath.last > *last) cutBack(*path_, *last, &swath);
+    swaths.push_back(std::move(swath));
+  }
+  return shifted(std::move(swaths), -static_cast<std::ptrdiff_t>(*first));
 }
 
 std::string ZoneSweep::words() const {

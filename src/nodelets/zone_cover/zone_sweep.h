@@ -16,14 +16,22 @@ struct ZoneTask {
   std::vector<Swath> swaths;    ///< on the command's path
   double covered_before = 0.0;  ///< by earlier runs [m^2]
   double goal_area = 0.0;       ///< to be covered in all [m^2]
+
+  /// What the vehicle sweeps on the way to that path: the stretch of its present one that is put in front of it.
+  std::vector<Swath> approach = {};  ///< with points of that stretch
+  std::size_t approach_end = 0;      ///< its last point, at which the path begins
 };
 
 /// @param progress  of earlier runs, with the lines of `coverage`.
 /// @param offset    of the coverage path's points in the path of the command.
 ZoneTask taskOf(CoverageProgress progress, const CoverageResult& coverage, std::size_t offset);
 
-/// Moves the swaths on the path by so many points. What then lies before its begin, since the vehicle was there before
-/// the command was sent, is not driven.
+/// The vehicle goes on along `approach`, and sweeps so much of it, before it comes to the path of `task`.
+/// @param swaths  on it, which `task` counts as covered before.
+void putInFront(std::vector<Swath> swaths, const Path& approach, ZoneTask* task);
+
+/// Moves the swaths on the path by so many points, and puts those of the approach before them. What then lies before
+/// its begin, since the vehicle was there before the command was sent, is not driven.
 void shiftPoints(std::ptrdiff_t points, ZoneTask* task);
 
 /// A zone that is being swept.
@@ -43,6 +51,9 @@ class ZoneSweep {
 
   const CoverageProgress& progress() const { return task_.progress; }
 
+  /// What is swept on a stretch of the path, with points in that stretch; none where it is no stretch of the path.
+  std::vector<Swath> swathsOn(const Path& stretch) const;
+
   /// "swath 7 of 30, 21 % covered", and which lap it is where it is one; numbers are those of the lines, from 1.
   std::string words() const;
 
@@ -50,6 +61,7 @@ class ZoneSweep {
   bool keep();
 
   ZoneTask task_;
+  std::shared_ptr<const Path> path_;
   ZoneTracker tracker_;
 };
 

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "external_command/core/error.h"
 #include "support/zone_plans.h"
 
@@ -160,6 +164,65 @@ TEST_F(ZoneSweepTest, StandsOnAPathOfWhichTheVehicleHasDrivenTheFirst) {
   EXPECT_NEAR(sweep.progress().sweptOf(0), 50.0, 0.6);
   drive(&sweep, 1, 5.0);
   EXPECT_TRUE(sweep.progress().isDone(0));
+}
+
+/// A stretch of the path, as a vehicle that sweeps on while the next plan is made drives it.
+class SweepOnTheWay : public ZoneSweepTest {
+ protected:
+  static constexpr std::size_t kFirst = 20, kLast = 60;  // 10 m to 30 m of the lap
+
+  Path stretch() const { return Path(path_.begin() + kFirst, path_.begin() + kLast + 1); }
+
+  /// The rest of the lap, planned from the end of the stretch.
+  ZoneTask rest() const {
+    ZoneTask rest{task_.progress, {task_.swaths.front()}, 30.0, task_.goal_area};
+    shiftPoints(-static_cast<std::ptrdiff_t>(kLast), &rest);
+    return rest;
+  }
+};
+
+TEST_F(SweepOnTheWay, IsKnownBeforehand) {
+  const std::vector<Swath> swaths = begin().swathsOn(stretch());
+  ASSERT_EQ(swaths.size(), 1u);
+  EXPECT_EQ(swaths.front().index, 0u);
+  EXPECT_EQ(swaths.front().first, 0u);
+  EXPECT_EQ(swaths.front().last, kLast - kFirst);
+  EXPECT_NEAR(swaths.front().from, 10.0, 0.1);
+  EXPECT_NEAR(swaths.front().length, 20.0, 0.1);
+  EXPECT_NEAR(swaths.front().covered_area, 20.0, 0.5);
+  EXPECT_EQ(swaths.front().covered.size(), kLast - kFirst + 1);
+}
+
+TEST_F(SweepOnTheWay, IsNoneOnAPathThatIsNotDriven) {
+  EXPECT_TRUE(begin().swathsOn({}).empty());
+  Path other = stretch();
+  other.front().y += 1.0;
+  EXPECT_TRUE(begin().swathsOn(other).empty());
+  other = stretch();
+  other.pop_back();
+  other.back().s += 0.1;
+  EXPECT_TRUE(begin().swathsOn(other).empty());
+}
+
+TEST_F(SweepOnTheWay, CountsOnlyOnceItIsDriven) {
+  for (const std::size_t driven_meanwhile : {std::size_t{0}, std::size_t{10}}) {
+    ZoneTask task = rest();
+    task.progress.sweep(0, 10.0);
+    putInFront(begin().swathsOn(stretch()), stretch(), &task);
+    const auto in_front = static_cast<std::ptrdiff_t>(kLast - kFirst - driven_meanwhile);
+    shiftPoints(in_front, &task);
+    Path path(path_.begin() + kFirst + static_cast<std::ptrdiff_t>(driven_meanwhile), path_.end());
+    setArcLengths(&path);
+    ZoneSweep sweep(task, std::make_shared<Path>(path));
+    EXPECT_EQ(sweep.progress().sweptOf(0), 10.0) << "a vehicle that stops here has swept no more";
+    EXPECT_NE(sweep.words().find(", 2 % covered"), std::string::npos) << sweep.words();
+    for (const double expected : {25.0, 40.0}) {
+      for (const ReferencePoint& point : path_) {
+        if (point.s <= expected) sweep.follow(point.pose());
+      }
+      EXPECT_NEAR(sweep.progress().sweptOf(0), expected, 0.6);
+    }
+  }
 }
 
 TEST_F(ZoneSweepTest, RefusesSwathsThatAreNotOnThePath) {
