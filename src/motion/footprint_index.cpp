@@ -248,15 +248,14 @@ double FootprintIndex::freeRadius(const Frame& frame) const {
 
 bool FootprintIndex::edgesAreClear(long cell, const Frame& frame, double cx, double cy) const {
   const double l = box_.half_length + margin_, w = box_.half_width + margin_;
-  const std::uint32_t* end = listed_.data() + starts_[static_cast<std::size_t>(cell) + 1];
-  for (const std::uint32_t* i = listed_.data() + starts_[static_cast<std::size_t>(cell)]; i != end; ++i) {
-    const HalfEdge& edge = edges_[*i];
+  for (const std::uint32_t i : edgesNear(cell)) {
+    const HalfEdge& edge = edges_[i];
     const double dx = edge.mx - cx, dy = edge.my - cy;
     const double mu = dx * frame.cos + dy * frame.sin, mv = dy * frame.cos - dx * frame.sin;
     const double hu = edge.hx * frame.cos + edge.hy * frame.sin, hv = edge.hy * frame.cos - edge.hx * frame.sin;
     if (!boxMeets(mu, mv, hu, hv, l, w)) continue;
     // Near a corner of the grown box the distance may still be kept.
-    if (isTooNear(exactDistance(edge, frame, cx, cy), *i)) return false;
+    if (isTooNear(exactDistance(edge, frame, cx, cy), i)) return false;
   }
   return true;
 }
@@ -265,8 +264,8 @@ bool FootprintIndex::meetsEdge(const FootprintBox& part, const Frame& frame) con
   const long cell = cellAt(frame.x + box_.centre * frame.cos, frame.y + box_.centre * frame.sin);
   if (cell < 0) return false;
   const double x = frame.x + part.centre * frame.cos, y = frame.y + part.centre * frame.sin;
-  const std::uint32_t* end = listed_.data() + starts_[static_cast<std::size_t>(cell) + 1];
-  return std::any_of(listed_.data() + starts_[static_cast<std::size_t>(cell)], end, [&](std::uint32_t i) {
+  const EdgeList near = edgesNear(cell);
+  return std::any_of(near.begin(), near.end(), [&](std::uint32_t i) {
     const HalfEdge& edge = edges_[i];
     const double dx = edge.mx - x, dy = edge.my - y;
     return boxMeets(dx * frame.cos + dy * frame.sin, dy * frame.cos - dx * frame.sin,
@@ -323,9 +322,8 @@ double FootprintIndex::exactRoom(const Frame& frame) const {
   const long cell = cellAt(cx, cy);
   double room = kBeyond;
   if (cell < 0) return 0.0;
-  const std::uint32_t* end = listed_.data() + starts_[static_cast<std::size_t>(cell) + 1];
-  for (const std::uint32_t* i = listed_.data() + starts_[static_cast<std::size_t>(cell)]; i != end; ++i) {
-    room = std::min(room, exactDistance(edges_[*i], frame, cx, cy) - marginTo(*i));
+  for (const std::uint32_t i : edgesNear(cell)) {
+    room = std::min(room, exactDistance(edges_[i], frame, cx, cy) - marginTo(i));
   }
   return room;
 }
@@ -351,10 +349,6 @@ bool FootprintIndex::axleMayBeWithin(double x, double y, double radius) const {
   return states_[at] == State::kFree ? near_[at] + slack >= axleDisc() : near_[at] <= slack;
 }
 
-double FootprintIndex::axleDisc() const {
-  return std::min(box_.half_width, box_.half_length - std::abs(box_.centre)) + least_margin_;
-}
-
 double FootprintIndex::axleRoom(const Point2d& point, double limit) const {
   const long cell = cellAt(point.x(), point.y());
   if (cell < 0) return outside_is_free_ ? limit : 0.0;
@@ -363,8 +357,8 @@ double FootprintIndex::axleRoom(const Point2d& point, double limit) const {
   if (near > cell_reach_ && states_[at] == State::kFilled) return cell_reach_ - near;
   if (near - cell_reach_ >= limit) return limit;
   double room = limit;
-  for (std::uint32_t i = starts_[at]; i < starts_[at + 1]; ++i) {
-    const ObstacleEdge& edge = obstacles_.edges()[listed_[i]];
+  for (const std::uint32_t i : edgesNear(cell)) {
+    const ObstacleEdge& edge = obstacles_.edges()[i];
     room = std::min(room, (nearestOnSegment(point, edge.begin, edge.end) - point).norm());
   }
   return room;

@@ -120,7 +120,9 @@ class FootprintIndex {
   double leastMargin() const { return least_margin_; }
 
   /// Radius of the disc around the rear axle's middle that every free footprint contains, with the margin [m].
-  double axleDisc() const;
+  double axleDisc() const {
+    return std::min(box_.half_width, box_.half_length - std::abs(box_.centre)) + least_margin_;
+  }
 
   /// Radius of the largest discs that fit into every free footprint, with the margin [m].
   double bodyDisc() const { return std::min(box_.half_width, box_.half_length) + least_margin_; }
@@ -160,6 +162,19 @@ class FootprintIndex {
   struct CellEdge {
     std::uint32_t cell, edge;
   };
+
+  /// Numbers of edges.
+  struct EdgeList {
+    const std::uint32_t *first, *last;
+    const std::uint32_t* begin() const { return first; }
+    const std::uint32_t* end() const { return last; }
+  };
+
+  /// Those that the footprint can reach from a cell.
+  EdgeList edgesNear(long cell) const {
+    const auto at = static_cast<std::size_t>(cell);
+    return {listed_.data() + starts_[at], listed_.data() + starts_[at + 1]};
+  }
 
   double marginTo(std::size_t edge) const { return margins_.empty() ? margin_ : margins_[edge]; }
   void easeMargin(std::size_t number, const Pose2d& pose);
