@@ -98,13 +98,18 @@ bool hasForwardNeighbour(const Lane& lane) {
   return lane.isDrivable() && !(lane.left_forward.empty() && lane.right_forward.empty());
 }
 
+/// Where more lanes than that lie around one on an average, they lie on each other, and nothing is said of neighbours.
+constexpr std::size_t kMostAround = 200;
+
 /// True where another driving lane lies beside the place, as wide apart as two lanes are, and runs the same way.
-bool hasLaneBeside(const MapContent& map, LaneIndex index, double s) {
+/// @param looked  at so many lanes; counted up.
+bool hasLaneBeside(const MapContent& map, LaneIndex index, double s, std::size_t* looked) {
   LaneQuery query;
   query.max_distance = kFarBeside;
   query.heading = map.lanes[index].center.headingAt(s);
   query.max_heading_difference = kSameWay;
   const std::vector<LaneMatch> matches = lanesWithin(map, map.lanes[index].center.pointAt(s), query);
+  *looked += matches.size();
   return std::any_of(matches.begin(), matches.end(), [index](const LaneMatch& match) {
     return match.lane != index && match.frenet.distance > kNearBeside;
   });
@@ -122,9 +127,10 @@ void mendNeighbours(MapContent* map) {
 /// They are not derived: where a file names none for any lane, nothing says which lines may be crossed.
 void countMissingNeighbours(MapContent* map) {
   if (std::any_of(map->lanes.begin(), map->lanes.end(), hasForwardNeighbour)) return;
-  for (LaneIndex index = 0; index < map->lanes.size(); ++index) {
+  std::size_t looked = 0;
+  for (LaneIndex index = 0; index < map->lanes.size() && looked < kMostAround * map->lanes.size(); ++index) {
     const Lane& lane = map->lanes[index];
-    const auto is_beside = [&](double share) { return hasLaneBeside(*map, index, share * lane.length()); };
+    const auto is_beside = [&](double share) { return hasLaneBeside(*map, index, share * lane.length(), &looked); };
     if (!lane.isDrivable() || !is_beside(0.25) || !is_beside(0.5) || !is_beside(0.75)) continue;
     map->faults.add(MapFault::kNeighboursMissing, {lane.id}, {lane.center.pointAt(lane.length() / 2.0)}, lane.id);
   }

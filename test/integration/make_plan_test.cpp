@@ -89,7 +89,8 @@ TEST_F(MakePlan, RefusesAtOnceWhatIsBeyondThoseThatMayWait) {
   EXPECT_EQ(refused, kMore) << "though the plan in work has not ended";
   gate_->open();
   for (auto& answer : asked) {
-    if (answer.valid()) EXPECT_GT(answer.get(), 0u);
+    if (!answer.valid()) continue;
+    EXPECT_GT(answer.get(), 0u);
   }
 }
 

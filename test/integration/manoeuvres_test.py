@@ -124,6 +124,14 @@ class ManoeuvresTest(unittest.TestCase):
             answer = self.free_space(pose(3.0, 0.0, math.pi), drivable_roi=street, dry_run=True)
             self.assert_refused(answer, error_code, *words)
 
+    def test_free_space_shuffles_round_in_a_narrow_street(self):
+        self.drive_to_the_middle()
+        street = polygon([(-15, -2.95), (15, -2.95), (15, 2.95), (-15, 2.95)])
+        answer = self.free_space(pose(3.0, 0.0, math.pi), drivable_roi=street, dry_run=True)
+        self.assertEqual(answer.status.error_code, CommandStatus.OK, support.describe(answer.status))
+        self.assertGreater(answer.report.gear_changes, 6)
+        self.assertGreater(answer.report.min_clearance, 0.0)
+
     def test_free_space_reaches_a_goal_nearer_than_the_margin(self):
         goal = pose(-8.0, 4.0, 0.0)
         for distance, words in ((0.05, "nearer than the margin"), (0.5, None)):

@@ -25,6 +25,13 @@ class HostileMap : public RoutingWorld {
     return usage.ru_maxrss / 1024;
   }
 
+  /// Of this process, on all threads [s].
+  static double secondsOfWork() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_utime.tv_sec) + 1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
+  }
+
   /// Routes, paths and lists of lanes fit into this [MB].
   static constexpr long kMost = 300;
 
@@ -84,6 +91,14 @@ TEST_F(HostileMap, LooksAtNoMoreOfAnEndlessLaneThanIsDriven) {
   const ReferencePaths paths(shared, VehicleParams(), ReferencePathParams());
   EXPECT_NEAR(paths.find(route, {}).path.back().s, 100.0, 1.0);
   EXPECT_LT(mostMemory() - before_, kMost);
+}
+
+TEST_F(HostileMap, LooksForMissingNeighboursNoLongerWhereAllLanesLieOnEachOther) {
+  constexpr int kLanes = 6000;
+  for (int i = 0; i < kLanes; ++i) builder.lane(text("l", i), {{0, 0}, {100, 0}});
+  const double before = secondsOfWork();
+  EXPECT_EQ(map().lanes().size(), static_cast<std::size_t>(kLanes));
+  EXPECT_LT(secondsOfWork() - before, 8.0);
 }
 
 TEST_F(HostileMap, TakesTheHeadingOfALaneOfNoLengthFromOneThatHasOne) {
