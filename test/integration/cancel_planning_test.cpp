@@ -59,18 +59,31 @@ class Cancel : public testing::Test {
     return loader_.load(ros::names::resolve(name), type, {}, {});
   }
 
-  /// A planner of another vehicle in this process, which plans without noticing that it is cancelled.
-  /// @return  what holds its plans.
-  std::shared_ptr<TestGate> loadOtherVehicle() {
+  /// A plan in work, which ends when its gate is opened.
+  struct HeldPlan {
+    std::shared_ptr<TestGate> gate;
+    std::future<CommandStatus> status;
+  };
+
+  /// @param polls_cancel  it ends where it is cancelled, too.
+  HeldPlan startHeldPlan(std::int64_t command_id, bool polls_cancel,
+                         const std::string& service = BlockingPlanner::kService) {
+    HeldPlan held{planner_->holdPlans(polls_cancel), plan(command_id, false, service)};
+    EXPECT_TRUE(held.gate->waitForEntered(1));
+    return held;
+  }
+
+  /// Another vehicle of this process plans, and has one of the two threads.
+  HeldPlan startPlanOfOtherVehicle() {
     XmlRpc::XmlRpcValue vehicle;
     EXPECT_TRUE(ros::param::get(ros::names::resolve("external_command/vehicle"), vehicle));
     ros::param::set("/other/external_command/vehicle", vehicle);
     const auto planner = planner_;
     EXPECT_TRUE(load("/other/planner", "test/BlockingPlanner"));
-    const auto gate = planner_->holdPlans(false);
-    planner_ = planner;
     EXPECT_TRUE(ros::service::waitForService(kOtherService, 10000));
-    return gate;
+    HeldPlan held = startHeldPlan(1, false, kOtherService);
+    planner_ = planner;
+    return held;
   }
 
   boost::shared_ptr<nodelet::Nodelet> create(const std::string& type) {
@@ -208,49 +221,37 @@ TEST_F(Cancel, EndsWhatWaitsForAThread) {
 }
 
 TEST_F(Cancel, EndsAnOlderPlanThoughTheNewerWaitsForAThreadThatAnotherVehicleHas) {
-  const auto others_gate = loadOtherVehicle();
-  auto others = plan(1, false, kOtherService);
-  ASSERT_TRUE(others_gate->waitForEntered(1));
-  const auto gate = planner_->holdPlans(true);
-  auto older = plan(7);
-  ASSERT_TRUE(gate->waitForEntered(1));
+  HeldPlan others = startPlanOfOtherVehicle();
+  HeldPlan older = startHeldPlan(7, true);
   const auto newer_gate = planner_->holdPlans(true);
   newer_gate->open();
   auto newer = plan(8);
-  EXPECT_TRUE(gate->waitForLeft(1)) << "though nobody opened the gate";
-  gate->open();
-  EXPECT_EQ(older.get().error_code, CommandStatus::SUPERSEDED);
+  EXPECT_TRUE(older.gate->waitForLeft(1)) << "though nobody opened the gate";
+  older.gate->open();
+  EXPECT_EQ(older.status.get().error_code, CommandStatus::SUPERSEDED);
   EXPECT_EQ(newer.get().status, CommandStatus::RUNNING);
-  others_gate->open();
-  EXPECT_EQ(others.get().status, CommandStatus::RUNNING) << "no vehicle cancels what another plans";
+  others.gate->open();
+  EXPECT_EQ(others.status.get().status, CommandStatus::RUNNING) << "no vehicle cancels what another plans";
 }
 
 TEST_F(Cancel, LeavesAnOlderPlanAloneWhereTheNewerThatWaitsForAThreadHasNoRoute) {
-  const auto others_gate = loadOtherVehicle();
-  auto others = plan(1, false, kOtherService);
-  ASSERT_TRUE(others_gate->waitForEntered(1));
-  const auto gate = planner_->holdPlans(true);
-  auto older = plan(7);
-  ASSERT_TRUE(gate->waitForEntered(1));
+  HeldPlan others = startPlanOfOtherVehicle();
+  HeldPlan older = startHeldPlan(7, true);
   planner_->setHasRoute(false);
   auto newer = plan(8);
   EXPECT_EQ(newer.wait_for(std::chrono::seconds(10)), std::future_status::ready) << "though nobody opened a gate";
-  gate->open();
+  older.gate->open();
   EXPECT_EQ(newer.get().error_code, CommandStatus::NO_ROUTE);
-  EXPECT_EQ(older.get().status, CommandStatus::RUNNING);
-  others_gate->open();
-  others.get();
+  EXPECT_EQ(older.status.get().status, CommandStatus::RUNNING);
+  others.gate->open();
+  others.status.get();
 }
 
 TEST_F(Cancel, ByAStopEndsWhatIsPlannedAndWhatWaitsForAThread) {
   ASSERT_TRUE(load("action", "external_command/ActionCommandProcessor"));
   ASSERT_TRUE(ros::service::waitForService("external_command/action", 10000));
-  const auto others_gate = loadOtherVehicle();
-  auto others = plan(1, false, kOtherService);
-  ASSERT_TRUE(others_gate->waitForEntered(1));
-  const auto gate = planner_->holdPlans(false);
-  auto older = plan(7);
-  ASSERT_TRUE(gate->waitForEntered(1));
+  HeldPlan others = startPlanOfOtherVehicle();
+  HeldPlan older = startHeldPlan(7, false);
   Inbox<CommandStatus> statuses("external_command/status");
   auto waiting = plan(8);
   ASSERT_TRUE(statuses.waitFor(1, [](const CommandStatus& status) { return status.command_id == 8; }));
@@ -258,10 +259,10 @@ TEST_F(Cancel, ByAStopEndsWhatIsPlannedAndWhatWaitsForAThread) {
   stop.request.command.command = ActionCommand::STOP;
   ASSERT_TRUE(ros::service::call("external_command/action", stop));
   EXPECT_EQ(waiting.get().error_code, CommandStatus::CANCELLED) << "while no thread is free";
-  gate->open();
-  EXPECT_EQ(older.get().status, CommandStatus::ERROR) << "neither is sent";
-  others_gate->open();
-  EXPECT_EQ(others.get().status, CommandStatus::RUNNING) << "it is the stop of one vehicle";
+  older.gate->open();
+  EXPECT_EQ(older.status.get().status, CommandStatus::ERROR) << "neither is sent";
+  others.gate->open();
+  EXPECT_EQ(others.status.get().status, CommandStatus::RUNNING) << "it is the stop of one vehicle";
 }
 
 TEST_F(Cancel, EndsADryRun) {

@@ -71,7 +71,7 @@ std::optional<Arcs> HybridAStar::search(const std::function<bool()>& stop) {
   if (runFor(std::min(kSecondLook, max_steps_))) return search_.arcs();
   if (outcome_ != TwoWaySearch::Outcome::kOutOfSteps || max_steps_ <= kSecondLook) return std::nullopt;
   if (search_.finestLevel() < kTightEnd) {
-    ShuffleSearch shuffling(scene_, query_, area_);
+    ShuffleSearch shuffling(scene_, query_, area_, search_.toGoal());
     if (shuffling.run(stop)) {
       outcome_ = TwoWaySearch::Outcome::kFound;
       return shuffling.arcs();

@@ -27,8 +27,8 @@ const std::vector<HolonomicSearch::Level>& HolonomicSearch::levels() {
   return levels;
 }
 
-HolonomicSearch::HolonomicSearch(const Scene& scene, const Pose2d& from, const Pose2d& to, const BoundingBox& area)
-    : scene_(scene), from_(from), to_(to), map_(scene.index, area, to) {}
+HolonomicSearch::HolonomicSearch(const Scene& scene, const Pose2d& from, const Pose2d& to, const DistanceMap& map)
+    : scene_(scene), from_(from), to_(to), map_(map) {}
 
 std::vector<Pose2d> HolonomicSearch::way(const std::function<bool()>& stop) {
   std::vector<Pose2d> way;

@@ -18,8 +18,8 @@ namespace external_command {
 /// little room.
 class HolonomicSearch {
  public:
-  /// @param area  the rear axle stays inside.
-  HolonomicSearch(const Scene& scene, const Pose2d& from, const Pose2d& to, const BoundingBox& area);
+  /// @param map  of the ways past the obstacles to `to`. The rear axle stays where it leads there.
+  HolonomicSearch(const Scene& scene, const Pose2d& from, const Pose2d& to, const DistanceMap& map);
 
   /// The poses of a way from the first one to the last, free, a step apart; the last step is less than a cell. Empty
   /// where none was found, or once `stop`, which is asked at every step, says so.
@@ -67,7 +67,7 @@ class HolonomicSearch {
 
   const Scene& scene_;
   Pose2d from_, to_;
-  DistanceMap map_;
+  const DistanceMap& map_;
   std::vector<Pose2d> avoided_;
   Level level_{};
   std::vector<Node> nodes_;

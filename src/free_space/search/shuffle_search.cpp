@@ -20,8 +20,9 @@ constexpr double kRoomAround = 1.0;             ///< of a piece, in turning radi
 
 }  // namespace
 
-ShuffleSearch::ShuffleSearch(const Scene& scene, const Query& query, const BoundingBox& area)
-    : scene_(scene), query_(query), area_(area), ways_(scene_, query.start, query.goal, area) {}
+ShuffleSearch::ShuffleSearch(const Scene& scene, const Query& query, const BoundingBox& area,
+                             const DistanceMap& to_goal)
+    : scene_(scene), query_(query), area_(area), ways_(scene_, query.start, query.goal, to_goal) {}
 
 bool ShuffleSearch::run(const std::function<bool()>& stop) {
   stop_ = stop;

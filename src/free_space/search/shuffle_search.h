@@ -15,8 +15,9 @@ namespace external_command {
 /// nonholonomic mobile robots", 1994). Near a piece that cannot be driven the way is made dear, and another is tried.
 class ShuffleSearch {
  public:
-  /// @param area  the rear axle stays inside while searching.
-  ShuffleSearch(const Scene& scene, const Query& query, const BoundingBox& area);
+  /// @param area     the rear axle stays inside while searching.
+  /// @param to_goal  of that area; must outlive the search.
+  ShuffleSearch(const Scene& scene, const Query& query, const BoundingBox& area, const DistanceMap& to_goal);
   ShuffleSearch(const ShuffleSearch&) = delete;
   ShuffleSearch& operator=(const ShuffleSearch&) = delete;
 

@@ -40,7 +40,7 @@ void expectsFreeSteps(const std::vector<Pose2d>& way, const SearchWorld& world) 
 }
 
 std::vector<Pose2d> wayIn(const SearchWorld& world, const std::function<bool()>& stop = kNeverStop) {
-  return HolonomicSearch(world.scene, world.query.start, world.query.goal, world.area).way(stop);
+  return HolonomicSearch(world.scene, world.query.start, world.query.goal, world.to_goal).way(stop);
 }
 
 TEST(HolonomicSearch, TurnsOnTheSpotWhereOnlyThatFits) {
@@ -73,7 +73,7 @@ TEST(HolonomicSearch, FindsNoWayOnceStopped) {
 
 TEST(HolonomicSearch, ShiftsElsewhereOnceAPlaceIsToBeAvoided) {
   const SearchWorld world(street(5.3));
-  HolonomicSearch search(world.scene, world.query.start, world.query.goal, world.area);
+  HolonomicSearch search(world.scene, world.query.start, world.query.goal, world.to_goal);
   const auto across = [](const std::vector<Pose2d>& way) {
     return *std::min_element(way.begin(), way.end(), [](const Pose2d& a, const Pose2d& b) {
       return std::abs(std::cos(a.heading)) < std::abs(std::cos(b.heading));

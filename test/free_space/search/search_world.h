@@ -2,6 +2,7 @@
 #pragma once
 
 #include "free_space/manoeuvre.h"
+#include "free_space/search/distance_map.h"
 #include "support/parking_worlds.h"
 
 namespace external_command {
@@ -13,17 +14,19 @@ struct SearchWorld {
   explicit SearchWorld(const ParkingWorld& world)
       : index(world.vehicle, 0.0, world.region, {0.0, 0.0}, {world.start, world.goal}, [] {}),
         scene{index, world.vehicle.min_turning_radius, {3.0, 1.0, 2.0}},
-        query{world.start, world.goal, 0} {
-    constexpr double kRoom = 20.0;  // [m]
-    const Point2d room = Point2d::Constant(kRoom);
-    area = {world.start.position().cwiseMin(world.goal.position()) - room,
-            world.start.position().cwiseMax(world.goal.position()) + room};
-  }
+        query{world.start, world.goal, 0},
+        area{world.start.position().cwiseMin(world.goal.position()) - Point2d::Constant(kRoom),
+             world.start.position().cwiseMax(world.goal.position()) + Point2d::Constant(kRoom)},
+        to_start(index, area, world.start),
+        to_goal(index, area, world.goal) {}
+
+  static constexpr double kRoom = 20.0;  ///< around start and goal [m]
 
   FootprintIndex index;
   Scene scene;
   Query query;
   BoundingBox area;
+  DistanceMap to_start, to_goal;
 };
 
 }  // namespace external_command

@@ -11,13 +11,13 @@ namespace external_command {
 namespace {
 
 bool isFoundIn(const SearchWorld& world, const std::function<bool()>& stop = kNeverStop) {
-  return ShuffleSearch(world.scene, world.query, world.area).run(stop);
+  return ShuffleSearch(world.scene, world.query, world.area, world.to_goal).run(stop);
 }
 
 TEST(ShuffleSearch, TurnsRoundInAStreetLittleWiderThanTheVehicleIsLong) {
   const ParkingWorld place = street(5.3);
   const SearchWorld world(place);
-  ShuffleSearch search(world.scene, world.query, world.area);
+  ShuffleSearch search(world.scene, world.query, world.area, world.to_goal);
   ASSERT_TRUE(search.run(kNeverStop));
   const Path path = sampleArcs(place.start, search.arcs(), 0.05);
   EXPECT_TRUE(joins(path, place.start, place.goal));

@@ -15,8 +15,7 @@ namespace {
 
 std::optional<TightTurn> tightTurnIn(const ParkingWorld& place, const std::function<bool()>& stop = kNeverStop) {
   const SearchWorld world(place);
-  const DistanceMap to_start(world.index, world.area, place.start), to_goal(world.index, world.area, place.goal);
-  return tightTurn(world.index, world.area, place.start, place.goal, {to_start, to_goal}, stop);
+  return tightTurn(world.index, world.area, place.start, place.goal, {world.to_start, world.to_goal}, stop);
 }
 
 TEST(TightTurn, IsProvedInAStreetThatIsNarrowerThanTheVehicleIsLong) {
