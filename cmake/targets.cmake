@@ -4,16 +4,46 @@
 
 set(EC_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)
 
-# ec_add_library(NAME SOURCES... [PUBLIC libs...] [PRIVATE libs...] [SYSTEM include dirs...])
-# A shared library with our warnings, in which every symbol must resolve; it is installed.
+# ec_precompile(TARGET HEADERS...)
+# Parsing Eigen, roscpp and gtest takes half of a build. With EC_PRECOMPILED_HEADERS, which the scripts set, they are
+# parsed once for all targets of a kind that name the same headers. Only what all of these are compiled with may be
+# defined for that: a compiler takes it for no other. Plain catkin builds do without, and see to it that each file
+# includes what it uses.
+function(ec_precompile target)
+  if(NOT EC_PRECOMPILED_HEADERS)
+    return()
+  endif()
+  get_target_property(kind ${target} TYPE)
+  get_target_property(is_pic ${target} POSITION_INDEPENDENT_CODE)
+  string(MAKE_C_IDENTIFIER "ec_parsed_${kind}_${is_pic}${ARGN}" parsed)
+  if(NOT TARGET ${parsed})
+    file(TOUCH ${CMAKE_BINARY_DIR}/${parsed}.cpp)
+    add_library(${parsed} OBJECT EXCLUDE_FROM_ALL ${CMAKE_BINARY_DIR}/${parsed}.cpp)
+    foreach(property COMPILE_FEATURES COMPILE_OPTIONS POSITION_INDEPENDENT_CODE)
+      get_target_property(value ${target} ${property})
+      set_target_properties(${parsed} PROPERTIES ${property} "${value}")
+    endforeach()
+    target_include_directories(${parsed} SYSTEM PRIVATE
+      ${EIGEN3_INCLUDE_DIRS} ${catkin_INCLUDE_DIRS} ${GTEST_INCLUDE_DIRS})
+    if(kind STREQUAL EXECUTABLE)  # a test program
+      target_link_libraries(${parsed} PRIVATE ${GTEST_LIBRARIES})
+    endif()
+    target_precompile_headers(${parsed} PRIVATE ${ARGN})
+  endif()
+  target_precompile_headers(${target} REUSE_FROM ${parsed})
+endfunction()
+
+# ec_add_library(NAME SOURCES... [PUBLIC libs...] [PRIVATE libs...] [SYSTEM include dirs...] [HEADERS headers...])
+# A shared library with our warnings, in which every symbol must resolve; it is installed. HEADERS: for ec_precompile().
 function(ec_add_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE;SYSTEM" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE;SYSTEM;HEADERS" ${ARGN})
   add_library(${name} SHARED ${ARG_SOURCES})
   target_compile_features(${name} PUBLIC cxx_std_17)
   target_compile_options(${name} PRIVATE ${EC_WARNINGS})
   target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/include PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_include_directories(${name} SYSTEM PUBLIC ${EIGEN3_INCLUDE_DIRS} ${ARG_SYSTEM})
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} -Wl,--no-undefined)
+  ec_precompile(${name} <Eigen/Core> ${ARG_HEADERS})
   install(TARGETS ${name}
     ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
     LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
@@ -40,19 +70,26 @@ endfunction()
 
 set(EC_TEST_RESULTS_DIR ${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME})
 
-# ec_add_gtest(NAME SOURCES... LIBRARIES libs...)
-# A gtest without a ROS master. Data beside the checkout is found by EC_SHARED_DIR.
-function(ec_add_gtest name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
-  catkin_add_executable_with_gtest(${name} ${ARG_SOURCES} ${PROJECT_SOURCE_DIR}/test/support/gtest_main.cpp
-    EXCLUDE_FROM_ALL)
+# ec_add_test_program(NAME SOURCES... LIBRARIES libs... [HEADERS headers...])
+# A program of gtest. Optimising it as what it tests is would take longer than it runs. HEADERS: for ec_precompile().
+function(ec_add_test_program name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;HEADERS" ${ARGN})
+  catkin_add_executable_with_gtest(${name} ${ARG_SOURCES} EXCLUDE_FROM_ALL)
   target_compile_features(${name} PRIVATE cxx_std_17)
-  target_compile_options(${name} PRIVATE ${EC_WARNINGS})
-  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test)
+  target_compile_options(${name} PRIVATE ${EC_WARNINGS} $<$<CONFIG:Release>:-O1>)
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/test)
+  target_link_libraries(${name} ${ARG_LIBRARIES})
+  ec_precompile(${name} <Eigen/Core> <gtest/gtest.h> ${ARG_HEADERS})
+  add_dependencies(tests ${name})
+endfunction()
+
+# ec_add_gtest(NAME SOURCES... LIBRARIES libs... [HEADERS headers...])
+# A test program that needs no ROS master. Data beside the checkout is found by EC_SHARED_DIR.
+function(ec_add_gtest name)
+  ec_add_test_program(${name} ${ARGN})
+  target_sources(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test/support/gtest_main.cpp)
   target_compile_definitions(${name} PRIVATE
     EC_SOURCE_DIR="${PROJECT_SOURCE_DIR}" EC_SHARED_DIR="${EC_SHARED_DIR}")
-  target_link_libraries(${name} ${ARG_LIBRARIES})
-  add_dependencies(tests ${name})
   ec_add_test(gtest ${name} gtest-${name}.xml DEPENDENCIES ${name}
     COMMAND $<TARGET_FILE:${name}> --gtest_output=xml:${EC_TEST_RESULTS_DIR}/gtest-${name}.xml)
 endfunction()
