@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "external_command/core/error.h"
 #include "external_command/core/text.h"
@@ -34,22 +35,23 @@ BoundingBox boxOf(const std::vector<Point2d>& points) {
 
 }  // namespace
 
-Polygon::Polygon(const std::vector<Point2d>& points, const std::string& name) {
+Polygon::Polygon(const std::vector<Point2d>& points, std::string name) : name_(std::move(name)) {
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!points[i].allFinite()) throw InvalidRequest(text(name, " vertex ", i, " is not finite"));
+    if (!points[i].allFinite()) throw InvalidRequest(text(name_, " vertex ", i, " is not finite"));
     if (!isPlausible(points[i])) {
-      throw InvalidRequest(text(name, " vertex ", i, " lies beyond 100,000 km; give coordinates of the map in metres"));
+      throw InvalidRequest(
+          text(name_, " vertex ", i, " lies beyond 100,000 km; give coordinates of the map in metres"));
     }
     if (points_.empty() || (points[i] - points_.back()).norm() >= kMinEdge) points_.push_back(points[i]);
   }
   while (points_.size() > 1 && (points_.front() - points_.back()).norm() < kMinEdge) points_.pop_back();
   if (points_.size() < 3) {
-    throw InvalidRequest(text(name, " has ", points_.size(), " distinct vertices; at least 3 are needed"));
+    throw InvalidRequest(text(name_, " has ", points_.size(), " distinct vertices; at least 3 are needed"));
   }
   if (signedArea(points_) < 0.0) std::reverse(points_.begin(), points_.end());
   area_ = std::abs(signedArea(points_));  // so that a polygon of the same points has the same, to the last digit
-  requireSimple(points_, name);
-  if (area_ < kMinPolygonArea) throw InvalidRequest(text(name, " has no area: ", area_, " m^2 inside its vertices"));
+  requireSimple(points_, name_);
+  if (area_ < kMinPolygonArea) throw InvalidRequest(text(name_, " has no area: ", area_, " m^2 inside its vertices"));
   box_ = boxOf(points_);
 }
 

@@ -99,11 +99,9 @@ class Planning {
   }
 
   std::string described(const std::string& what, const Pose2d& pose, const Collision& collision) const {
-    const bool is_border =
-        collision.kind == Collision::Kind::kDrivableBorder || collision.kind == Collision::Kind::kAxleBounds;
     const bool is_grid = collision.kind == Collision::Kind::kGrid;
-    return text(what, " ", at(pose), is_border ? " sticks out of " : " overlaps ", collision.obstacle(), " ",
-                collision.extent(), " near ", at(collision.at), ", the margin of ", metres(params_.margin), " included",
+    return text(what, " ", at(pose), " ", collision.description(), " near ", at(collision.at), ", the margin of ",
+                metres(params_.margin), " included",
                 is_grid ? unknownCellsHint(vehicle_, params_.margin, index_.obstacles().region(), pose,
                                            stop_.cancel().checkpoint())
                         : "");
@@ -121,10 +119,11 @@ class Planning {
     for (const EasedMargin& eased : index_.easedMargins()) {
       const bool is_start = eased.pose == 0;
       const Pose2d& pose = is_start ? start : goals[eased.pose - 1];
-      warnings_.push_back({eased.pose, text(is_start ? "the start" : nameOf(eased.pose - 1, goals), " ", at(pose),
-                                            " is ", metres(eased.distance), " from ", obstacleName(eased.source),
-                                            ", nearer than the margin of ", metres(params_.margin), ": within ",
-                                            metres(eased.within), " of it the margin is ", metres(eased.margin))});
+      warnings_.push_back(
+          {eased.pose, text(is_start ? "the start" : nameOf(eased.pose - 1, goals), " ", at(pose), " is ",
+                            metres(eased.distance), " from ", obstacleName(index_.obstacles().region(), eased.source),
+                            ", nearer than the margin of ", metres(params_.margin), ": within ", metres(eased.within),
+                            " of it the margin is ", metres(eased.margin))});
     }
   }
 

@@ -118,7 +118,7 @@ Surface drivableSurface(const HdMap& map, const Polygon& core, const Point2d& ce
   Surface surface{Polygon(fromBoost(part.outer(), center), "the surface of lanes and area"), {}};
   for (const BoostRing& hole : part.inners()) {
     if (std::abs(bg::area(hole)) < kMinHoleArea) continue;
-    surface.holes.emplace_back(fromBoost(hole, center), "a hole between the lanes");
+    surface.holes.emplace_back(fromBoost(hole, center), "what lies between the lanes");
   }
   return surface;
 }

@@ -83,7 +83,9 @@ T valueFrom(ArchiveReader* archive) {
   return value;
 }
 
-Polygon polygonFrom(ArchiveReader* archive) { return Polygon(valuesFrom<Point2d>(archive), "a polygon"); }
+Polygon polygonFrom(ArchiveReader* archive, const char* kind, const std::string& id) {
+  return Polygon(valuesFrom<Point2d>(archive), text(kind, " ", id));
+}
 
 /// @param write  writes one of the items.
 template <class Items, class Write>
@@ -119,12 +121,18 @@ void writeObjects(const MapContent& map, ArchiveWriter* archive) {
 
 void readObjects(ArchiveReader* in, MapContent* map) {
   // Of several values in braces the first is read first.
-  readEach(in, [&] { map->junctions.push_back({textFrom(in), polygonFrom(in)}); });
   readEach(in, [&] {
-    map->parking_spaces.push_back({textFrom(in), polygonFrom(in), valueFrom<double>(in), valuesFrom<LaneOverlap>(in)});
+    const std::string id = textFrom(in);
+    map->junctions.push_back({id, polygonFrom(in, "junction", id)});
   });
   readEach(in, [&] {
-    map->areas.push_back({textFrom(in), textFrom(in), polygonFrom(in), valuesFrom<LaneOverlap>(in)});
+    const std::string id = textFrom(in);
+    map->parking_spaces.push_back(
+        {id, polygonFrom(in, "parking space", id), valueFrom<double>(in), valuesFrom<LaneOverlap>(in)});
+  });
+  readEach(in, [&] {
+    const std::string id = textFrom(in);
+    map->areas.push_back({id, textFrom(in), polygonFrom(in, "area", id), valuesFrom<LaneOverlap>(in)});
   });
 }
 

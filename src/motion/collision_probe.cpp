@@ -98,29 +98,19 @@ std::vector<int> sourcesOf(const Region& region) {
 
 }  // namespace
 
-std::string Collision::obstacle() const {
-  switch (kind) {
-    case Kind::kDrivableBorder:
-      return "drivable_roi";
-    case Kind::kNonDrivable:
-      return text("non_drivable_roi[", index, "]");
-    case Kind::kGrid:
-      return "the obstacle grid";
-    case Kind::kAxleBounds:
-      break;
-  }
-  return "the axle bounds";
-}
-
 std::string Collision::extent() const {
   return depth < kFarthest ? "by " + metres(depth) : "by more than " + metres(kFarthest);
 }
 
-std::string obstacleName(int source) {
-  Collision collision;
-  collision.kind = kindOf(source);
-  collision.index = static_cast<std::size_t>(std::max(source, 0));
-  return collision.obstacle();
+std::string Collision::description() const {
+  const bool is_border = kind == Kind::kDrivableBorder || kind == Kind::kAxleBounds;
+  return text(is_border ? "sticks out of " : "overlaps ", obstacle, " ", extent());
+}
+
+std::string obstacleName(const Region& region, int source) {
+  if (source == kGridSource) return "the obstacle grid";
+  return source == kDrivableSource ? region.drivable()->name()
+                                   : region.nonDrivable()[static_cast<std::size_t>(source)].name();
 }
 
 std::optional<Collision> probeCollision(const FootprintIndex& index, const Pose2d& local) {
@@ -129,16 +119,18 @@ std::optional<Collision> probeCollision(const FootprintIndex& index, const Pose2
   if (!index.isWithinAxleBounds(local.x, local.y)) {
     const BoundingBox& box = index.axleBounds();
     const Point2d inside = local.position().cwiseMax(box.min).cwiseMin(box.max);
-    return Collision{Collision::Kind::kAxleBounds, 0, (inside - local.position()).norm(), inside + origin};
+    return Collision{Collision::Kind::kAxleBounds, 0, "the axle bounds", (inside - local.position()).norm(),
+                     inside + origin};
   }
+  const Region& region = index.obstacles().region();
   const Probe probe(index, local);
   std::optional<Collision> deepest;
-  for (const int source : sourcesOf(index.obstacles().region())) {
+  for (const int source : sourcesOf(region)) {
     if (!probe.collides(source, {0.0, 0.0})) continue;
     const double depth = probe.depth(source);
     if (deepest && deepest->depth >= depth) continue;
-    deepest = Collision{kindOf(source), static_cast<std::size_t>(std::max(source, 0)), depth,
-                        probe.nearestPoint(source) + origin};
+    deepest = Collision{kindOf(source), static_cast<std::size_t>(std::max(source, 0)), obstacleName(region, source),
+                        depth, probe.nearestPoint(source) + origin};
   }
   return deepest;
 }

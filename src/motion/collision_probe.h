@@ -9,8 +9,8 @@
 
 namespace external_command {
 
-/// What error texts call an obstacle: "non_drivable_roi[2]".
-std::string obstacleName(int source);
+/// What error texts call an obstacle of a region, see Collision::obstacle.
+std::string obstacleName(const Region& region, int source);
 
 /// The deepest collision at a pose of the local frame, with its point in the map frame; nullopt exactly where the pose
 /// is free. Slow and plain: all edges of every obstacle are looked at.

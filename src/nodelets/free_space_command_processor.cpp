@@ -2,8 +2,6 @@
 #include "free_space_command_processor.h"
 
 #include "external_command/FreeSpaceAction.h"
-#include "external_command/core/obstacle_polygon.h"
-#include "external_command/core/text.h"
 #include "external_command/ros/action_front.h"
 #include "external_command/ros/checks.h"
 
@@ -16,11 +14,7 @@ Region::Parts partsOf(const FreeSpaceCommand& command, const Pose2d& frame, cons
   if (!command.drivable_roi.points.empty()) {
     parts.drivable = toPolygon(command.drivable_roi, frame, "drivable_roi");
   }
-  for (std::size_t i = 0; i < command.non_drivable_roi.size(); ++i) {
-    cancel.throwIfCancelled();
-    parts.non_drivable.push_back(
-        obstaclePolygon(toMapPoints(command.non_drivable_roi[i].points, frame), text("non_drivable_roi[", i, "]")));
-  }
+  parts.non_drivable = toObstacles(command.non_drivable_roi, frame, cancel);
   return parts;
 }
 

@@ -117,8 +117,8 @@ void PreciseParkingCommandProcessor::processSpecialCommand(const PreciseParkingC
   for (const ReferencePoint& point : last) {
     if (const auto collision = checker.collisionAt(point.pose())) {
       throw GoalBlocked(
-          text("the straight last ", metres(straight_last_), " (~straight_last) into parking_spot_pose ", at(spot),
-               " runs into ", collision->obstacle(), " at ", at(collision->at), " ", collision->extent(),
+          text("the straight last ", metres(straight_last_), " (~straight_last) into parking_spot_pose ", at(spot), " ",
+               collision->description(), " near ", at(collision->at),
                unknownCellsHint(vehicle, planner_->params().margin, region, point.pose(), cancel.checkpoint())));
     }
   }

@@ -43,20 +43,6 @@ void stayBeside(const HdMap& map, const ParkingSpace& space, const std::vector<L
   }
 }
 
-/// What a collision is with, as the map calls it.
-std::string nameOf(const Collision& collision, const HdMap& map, const Region& region) {
-  if (collision.kind != Collision::Kind::kNonDrivable) return collision.obstacle();
-  const std::vector<Point2d>& points = region.nonDrivable()[collision.index].points();
-  for (const ParkingSpace& space : map.parkingSpaces()) {
-    if (space.polygon.points() == points) return "parking space " + space.id;
-  }
-  return "what lies between the lanes and the spaces";
-}
-
-std::string describe(const Collision& collision, const HdMap& map, const Region& region) {
-  return text(nameOf(collision, map, region), " ", collision.extent(), " near ", at(collision.at));
-}
-
 /// Around a place, for obstacles that are farther away not to be taken in.
 Polygon surroundingsOf(const Polygon& place) {
   constexpr double kRoom = 2.0;  // [m]
@@ -218,14 +204,14 @@ std::vector<Pose2d> ValetParkingCommandProcessor::freePosesIn(const ParkingSpace
   if (!poses.empty()) return poses;
   planner_->showConflicts(spot.poses(), obstacles, plan.scene, cancel);
   const auto collision = checker.collisionAt(spot.poses().front());
-  throw GoalBlocked(text("the vehicle does not fit into parking space ", space.id, ": in its middle it overlaps ",
-                         collision ? describe(*collision, map, obstacles) : "an obstacle", ", the margin of ",
-                         metres(planner_->params().margin), " (~free_space/margin) included",
-                         unknownCellsHint(context().params().vehicle, planner_->params().margin, obstacles,
-                                          spot.poses().front(), cancel.checkpoint()),
-                         ", and nowhere within ", metres(params_.position_tolerance), " and ",
-                         radians(params_.heading_tolerance),
-                         " of it is there room (~parking_position_tolerance, ~parking_heading_tolerance)"));
+  throw GoalBlocked(
+      text("the vehicle does not fit into parking space ", space.id, ": in its middle it ",
+           collision ? text(collision->description(), " near ", at(collision->at)) : "overlaps an obstacle",
+           ", the margin of ", metres(planner_->params().margin), " (~free_space/margin) included",
+           unknownCellsHint(context().params().vehicle, planner_->params().margin, obstacles, spot.poses().front(),
+                            cancel.checkpoint()),
+           ", and nowhere within ", metres(params_.position_tolerance), " and ", radians(params_.heading_tolerance),
+           " of it is there room (~parking_position_tolerance, ~parking_heading_tolerance)"));
 }
 
 void ValetParkingCommandProcessor::park(const ValetParkingCommand& command, const Deadline& deadline,

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "external_command/ros/conversions.h"
 
+#include "external_command/core/obstacle_polygon.h"
+#include "external_command/core/text.h"
+
 namespace external_command {
 
 namespace {
@@ -50,6 +53,17 @@ std::vector<Point2d> toMapPoints(const std::vector<geometry_msgs::Point>& points
 
 Polygon toPolygon(const RoiPolygon& roi, const Pose2d& frame, const std::string& name) {
   return Polygon(toMapPoints(roi.points, frame), name);
+}
+
+std::vector<Polygon> toObstacles(const std::vector<RoiPolygon>& non_drivable_roi, const Pose2d& frame,
+                                 const CancelToken& cancel) {
+  std::vector<Polygon> obstacles;
+  for (const RoiPolygon& roi : non_drivable_roi) {
+    cancel.throwIfCancelled();
+    obstacles.push_back(
+        obstaclePolygon(toMapPoints(roi.points, frame), text("non_drivable_roi[", obstacles.size(), "]")));
+  }
+  return obstacles;
 }
 
 geometry_msgs::Point toPointMsg(const Point2d& point) {

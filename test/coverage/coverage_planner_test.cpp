@@ -30,13 +30,11 @@ TEST(CoveragePlanner, KeepsOutOfHoles) {
 }
 
 TEST(CoveragePlanner, NamesAnAreaThatIsTooLarge) {
-  CoverageArea area{box(0, 0, 30'000, 30), {}};
-  area.name = "drivable_roi";
   try {
-    planned(area);
+    planned({Polygon(box(0, 0, 30'000, 30).points(), "the steppe"), {}});
     FAIL() << "it was planned";
   } catch (const InvalidRequest& error) {
-    EXPECT_EQ(std::string(error.what()).find("drivable_roi is 30000.00 m across"), 0u) << error.what();
+    EXPECT_EQ(std::string(error.what()).find("the steppe is 30000.00 m across"), 0u) << error.what();
   }
 }
 
@@ -139,7 +137,7 @@ TEST(CoveragePlanner, LeavesAStartNearerToTheBorderThanTheMarginAndSaysSo) {
   EXPECT_TRUE(isDrivable(result.path, area));
   ASSERT_FALSE(result.warnings.empty());
   EXPECT_EQ(result.warnings.front(),
-            "at the start (5.00, 0.69, 0.000) the footprint is nearer to the border of the area than the margin of "
+            "at the start (5.00, 0.69, 0.000) the footprint is nearer to the border of box than the margin of "
             "0.10 m, by 0.06 m; it leaves with a smaller margin");
 }
 
@@ -347,8 +345,9 @@ TEST(CoveragePlanner, SaysWhatTheStartOverlaps) {
     return grid;
   };
   const Polygon hole = box(30, 20, 31, 21), outer = box(0, 0, 40, 30);
-  EXPECT_NE(refusal({box(10, 10, 40, 30), {}}).find("sticks out of the area"), std::string::npos);
-  EXPECT_NE(refusal({outer, {hole, box(4, 4, 8, 8)}}).find("overlaps non_drivable_roi[1]"), std::string::npos);
+  EXPECT_NE(refusal({box(10, 10, 40, 30), {}}).find("sticks out of box by"), std::string::npos);
+  EXPECT_NE(refusal({outer, {hole, Polygon(box(4, 4, 8, 8).points(), "the pond")}}).find("overlaps the pond by"),
+            std::string::npos);
   const std::string occupied = refusal({outer, {hole}, gridOf(100)}), unknown = refusal({outer, {hole}, gridOf(-1)});
   EXPECT_NE(occupied.find("overlaps an obstacle of the grid"), std::string::npos) << occupied;
   EXPECT_EQ(occupied.find("unknown"), std::string::npos) << occupied;
@@ -367,10 +366,10 @@ TEST(CoveragePlanner, RefusesAnAreaTheVehicleDoesNotFitInto) {
 
 TEST(CoveragePlanner, RefusesHolesThatLeaveNothing) {
   try {
-    planned({box(0, 0, 40, 30), {box(1, 1, 2, 2), box(-5, -5, 50, 50)}});
+    planned({box(0, 0, 40, 30), {box(1, 1, 2, 2), Polygon(box(-5, -5, 50, 50).points(), "the lake")}});
     FAIL() << "accepted";
   } catch (const InvalidRequest& error) {
-    EXPECT_NE(std::string(error.what()).find("non_drivable_roi[1]"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("the lake leaves nothing"), std::string::npos) << error.what();
   }
 }
 

@@ -182,7 +182,7 @@ TEST(FreeSpacePlanner, SaysWhatTheStartOverlapsAndByHowMuch) {
   world.start.y -= 0.3;  // the kerb is 0.2 m away, the margin 0.05 m
   const std::string message = messageOf<StartBlocked>([&] { planned(world, quickParams()); });
   EXPECT_NE(message.find("start"), std::string::npos) << message;
-  EXPECT_NE(message.find("non_drivable_roi[0] by 0.15 m"), std::string::npos) << message;
+  EXPECT_NE(message.find("overlaps box by 0.15 m"), std::string::npos) << message;
 }
 
 TEST(FreeSpacePlanner, SaysWhatTheGoalSticksOutOf) {
@@ -190,7 +190,7 @@ TEST(FreeSpacePlanner, SaysWhatTheGoalSticksOutOf) {
   world.goal = world.start;
   world.goal.x = -1.0;
   const std::string message = messageOf<GoalBlocked>([&] { planned(world, quickParams()); });
-  EXPECT_NE(message.find("sticks out of drivable_roi by"), std::string::npos) << message;
+  EXPECT_NE(message.find("sticks out of box by"), std::string::npos) << message;
 }
 
 TEST(FreeSpacePlanner, FindsNoPathThroughAGateThatIsTooNarrow) {

@@ -195,6 +195,11 @@ class ManoeuvresTest(unittest.TestCase):
     def test_precise_parking_refuses_a_spot_outside_every_area(self):
         self.assert_refused(self.precise(ON_MAIN_STREET), CommandStatus.INVALID_REQUEST, "area")
 
+    def test_precise_parking_names_what_the_map_has_in_the_way(self):
+        across_the_fence = pose(332.0, 110.0, 0.0)
+        answer = self.precise(across_the_fence, parking_inwards=True, is_start_pose_set=True, way_point=[ON_MAIN_STREET])
+        self.assert_refused(answer, CommandStatus.GOAL_BLOCKED, "sticks out of the surface of lanes and area by")
+
     def test_zone_cover_sweeps_a_courtyard_and_tells_how_far_it_is(self):
         statuses = support.Collector("/courtyard/external_command/status", CommandStatus)
         self.drive_to_the_middle()

@@ -114,19 +114,19 @@ TEST(CollisionChecker, KeepsTheRearAxleInItsBounds) {
 TEST(CollisionChecker, NamesTheObstacleAndTheDepth) {
   const VehicleParams vehicle = smallCar();
   Region::Parts parts;
-  parts.drivable = box({0, 0}, 40.0, 40.0);
+  parts.drivable = Polygon(box({0, 0}, 40.0, 40.0).points(), "the yard");
   parts.non_drivable.push_back(box({10, 10}, 1.0, 1.0));
-  parts.non_drivable.push_back(box({0, -2.0}, 8.0, 2.0));  // its upper side at y = -1
+  parts.non_drivable.push_back(Polygon(box({0, -2.0}, 8.0, 2.0).points(), "parking space p7"));  // up to y = -1
   const CollisionChecker checker(vehicle, 0.0, Region(parts));
   const double y = -1.0 + vehicle.width / 2.0 - 0.12;
   const auto collision = checker.collisionAt({0, y, 0});
   ASSERT_TRUE(collision);
-  EXPECT_EQ(collision->obstacle(), "non_drivable_roi[1]");
+  EXPECT_EQ(collision->description(), "overlaps parking space p7 by 0.12 m");
   EXPECT_NEAR(collision->depth, 0.12, 2e-3);
   EXPECT_FALSE(checker.collisionAt({0, y + 0.13, 0}));
   const auto outside = checker.collisionAt({19.0, 0, 0});
   ASSERT_TRUE(outside);
-  EXPECT_EQ(outside->obstacle(), "drivable_roi");
+  EXPECT_EQ(outside->description().find("sticks out of the yard by "), 0u) << outside->description();
   EXPECT_NEAR(outside->depth, 19.0 + vehicle.wheelbase + vehicle.front_overhang - 20.0, 2e-3);
 }
 

@@ -56,7 +56,7 @@ class Description {
   void add(const char* kind, const std::string& id, const Polygon& polygon) {
     out_ << '\n' << kind << ' ' << id;
     add("polygon", polygon.points());
-    out_ << ' ' << polygon.area() << ' ';
+    out_ << ' ' << polygon.name() << ' ' << polygon.area() << ' ';
     add(polygon.box());
   }
 

@@ -17,14 +17,15 @@ struct BoundingBox {
 class Polygon {
  public:
   /// Either orientation; a repeated first point and consecutive points nearer than 1 mm are dropped. O(n log n).
-  /// @param name  what the caller calls it, "non_drivable_roi[2]": the error texts begin with it.
+  /// @param name  what error texts call it: "non_drivable_roi[2]", "parking space p7".
   /// @throws InvalidRequest  a point is not plausible (pose.h), fewer than 3 distinct points, no area, or it crosses
   ///                         itself: the text names the vertex.
-  Polygon(const std::vector<Point2d>& points, const std::string& name);
+  Polygon(const std::vector<Point2d>& points, std::string name);
 
   /// The same polygon elsewhere, without another check.
   Polygon movedBy(const Point2d& offset) const;
 
+  const std::string& name() const { return name_; }
   const std::vector<Point2d>& points() const { return points_; }
   double area() const { return area_; }  ///< [m^2], positive
   const BoundingBox& box() const { return box_; }
@@ -36,6 +37,7 @@ class Polygon {
   double distanceToBorder(const Point2d& point) const;
 
  private:
+  std::string name_;
   std::vector<Point2d> points_;
   double area_;
   BoundingBox box_;

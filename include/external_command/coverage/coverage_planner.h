@@ -24,7 +24,6 @@ struct CoverageArea {
   /// What it blocks are holes too.
   std::optional<OccupancyGrid> grid = std::nullopt;
   RegionLimits limits = {};
-  std::string name = "the area";  ///< what the caller calls it, in error texts
 };
 
 /// A line, or the rest of one that was begun, on the path.

@@ -21,14 +21,15 @@ struct Collision {
 
   Kind kind = Kind::kNonDrivable;
   std::size_t index = 0;  ///< of the polygon in Region::nonDrivable(); 0 for the other kinds
+  std::string obstacle;   ///< its polygon's name, "parking space p7"; else "the obstacle grid", "the axle bounds"
   double depth = 0.0;     ///< about how far the footprint must move to be `margin` away from it, in (0, 64] [m]
   Point2d at{0.0, 0.0};   ///< a point of the obstacle in the footprint, or nearest to it
 
-  /// "drivable_roi", "non_drivable_roi[2]", "the obstacle grid", "the axle bounds".
-  std::string obstacle() const;
-
   /// "by 0.27 m", or "by more than 64.00 m" where no way out was found.
   std::string extent() const;
+
+  /// "overlaps parking space p7 by 0.27 m", "sticks out of drivable_roi by 1.20 m".
+  std::string description() const;
 };
 
 /// The vehicle's exact footprint against the exact obstacles of a region. Immutable and thread-safe.

@@ -10,6 +10,7 @@
 #include "external_command/Pose.h"
 #include "external_command/RoiPolygon.h"
 #include "external_command/RoutingResponse.h"
+#include "external_command/core/cancel_token.h"
 #include "external_command/core/path.h"
 #include "external_command/core/polygon.h"
 #include "external_command/routing/router.h"
@@ -23,6 +24,12 @@ std::vector<Point2d> toMapPoints(const std::vector<geometry_msgs::Point>& points
 
 /// @throws InvalidRequest  not a simple polygon; the text begins with `name`.
 Polygon toPolygon(const RoiPolygon& roi, const Pose2d& frame, const std::string& name);
+
+/// The obstacles of a request, which may be points and lines, see obstaclePolygon(): "non_drivable_roi[0]" and so on.
+/// @throws InvalidRequest  not a simple polygon; the text begins with its name.
+/// @throws Cancelled
+std::vector<Polygon> toObstacles(const std::vector<RoiPolygon>& non_drivable_roi, const Pose2d& frame,
+                                 const CancelToken& cancel);
 
 geometry_msgs::Point toPointMsg(const Point2d& point);
 PlannedPath toMsg(const Path& path);

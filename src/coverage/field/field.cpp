@@ -38,13 +38,13 @@ Point2d originOf(const CoverageArea& area, double swath_width) {
   const BoundingBox& box = area.outer.box();
   const Point2d size = box.max - box.min;
   if (size.maxCoeff() > kMaxExtent) {
-    throw InvalidRequest(text(area.name, " is ", metres(size.maxCoeff()), " across; at most ", metres(kMaxExtent),
-                              " can be planned: divide it"));
+    throw InvalidRequest(text(area.outer.name(), " is ", metres(size.maxCoeff()), " across; at most ",
+                              metres(kMaxExtent), " can be planned: divide it"));
   }
   if (size.norm() > kMostWidths * swath_width) {
-    throw InvalidRequest(text(area.name, " is ", metres(size.norm()), " from corner to corner; with a swath_width of ",
-                              metres(swath_width), " at most ", metres(kMostWidths * swath_width),
-                              " can be planned: divide it"));
+    throw InvalidRequest(text(area.outer.name(), " is ", metres(size.norm()),
+                              " from corner to corner; with a swath_width of ", metres(swath_width), " at most ",
+                              metres(kMostWidths * swath_width), " can be planned: divide it"));
   }
   return {std::round(box.min.x()), std::round(box.min.y())};
 }
@@ -110,7 +110,7 @@ void Field::setShapes(const CoverageArea& area) {
   for (std::size_t i = 0; i < area.holes.size(); ++i) {
     if (!difference(whole, holes[i]).empty()) continue;
     throw InvalidRequest(
-        text("non_drivable_roi[", i, "] leaves nothing of the area of ", std::round(area.outer.area()), " m^2"));
+        text(area.holes[i].name(), " leaves nothing of the area of ", std::round(area.outer.area()), " m^2"));
   }
   throw InvalidRequest(text("the ", area.holes.size(), " polygons non_drivable_roi",
                             area.grid ? " and the obstacle grid" : "", " together leave nothing of the area of ",
@@ -121,23 +121,18 @@ void Field::requireFreeStart(const CoverageArea& area) {
   if (!start_) return;
   if (!start_->isFinite()) throw InvalidRequest("the start pose is not finite");
   const Pose2d given{start_->x + origin_.x(), start_->y + origin_.y(), start_->heading};
-  const auto is_inner = [](const Collision& collision) { return collision.kind == Collision::Kind::kNonDrivable; };
-  const auto nameOf = [&](const Collision& collision) {
-    // The obstacles of the grid come after the holes.
-    return collision.index < area.holes.size() ? collision.obstacle() : "an obstacle of the grid";
-  };
   const auto collision = bare_checker_.collisionAt(*start_);
   if (!collision) {
     const auto close = checker_.collisionAt(*start_);
     if (!close) return;
     start_warning_ = text("at the start ", at(given), " the footprint is nearer to ",
-                          is_inner(*close) ? nameOf(*close) : "the border of the area", " than the margin of ",
-                          metres(params_.margin), ", ", close->extent(), "; it leaves with a smaller margin");
+                          close->kind == Collision::Kind::kNonDrivable ? "" : "the border of ", close->obstacle,
+                          " than the margin of ", metres(params_.margin), ", ", close->extent(),
+                          "; it leaves with a smaller margin");
     return;
   }
-  const std::string obstacle = is_inner(*collision) ? "overlaps " + nameOf(*collision) : "sticks out of the area";
   const Region region({area.outer, area.holes, area.grid, std::nullopt, area.limits});
-  throw StartBlocked(text("at the start ", at(given), " the footprint ", obstacle, " ", collision->extent(),
+  throw StartBlocked(text("at the start ", at(given), " the footprint ", collision->description(),
                           unknownCellsHint(vehicle_, 0.0, region, given, checkpoint()),
                           "; move the vehicle into the free area"));
 }

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "external_command/ZoneCoverAction.h"
-#include "external_command/core/obstacle_polygon.h"
 #include "external_command/core/printable.h"
 #include "external_command/core/text.h"
 #include "external_command/map/near_ids.h"
@@ -146,16 +145,8 @@ const Area& ZoneCoverCommandProcessor::areaOf(const ZoneCoverCommand& command) c
 CoverageArea ZoneCoverCommandProcessor::zoneOf(const ZoneCoverCommand& command, const CancelToken& cancel) const {
   const Pose2d frame = context().vehiclePose().ofFrame(command.header.frame_id);
   const bool by_area = !command.zone_cover_area_id.empty();
-  CoverageArea zone{by_area ? areaOf(command).polygon : toPolygon(command.drivable_roi, frame, "drivable_roi"), {}};
-  for (std::size_t i = 0; i < command.non_drivable_roi.size(); ++i) {
-    cancel.throwIfCancelled();
-    zone.holes.push_back(
-        obstaclePolygon(toMapPoints(command.non_drivable_roi[i].points, frame), text("non_drivable_roi[", i, "]")));
-  }
-  zone.grid = planner_->grid();
-  zone.limits = planner_->regionLimits();
-  zone.name = by_area ? text("the area of zone_cover_area_id ", command.zone_cover_area_id) : "drivable_roi";
-  return zone;
+  return {by_area ? areaOf(command).polygon : toPolygon(command.drivable_roi, frame, "drivable_roi"),
+          toObstacles(command.non_drivable_roi, frame, cancel), planner_->grid(), planner_->regionLimits()};
 }
 
 Pose2d ZoneCoverCommandProcessor::givenStart(const ZoneCoverCommand& command, const PlanStart& start) const {
