@@ -12,7 +12,7 @@
 #include "free_space/improve/anytime_improver.h"
 #include "free_space/ompl/first_path.h"
 #include "free_space/search/narrow_passage.h"
-#include "free_space/search/tight_turn.h"
+#include "free_space/search/no_way.h"
 #include "last_check.h"
 #include "motion/collision_probe.h"
 #include "steering_ramps.h"
@@ -160,6 +160,7 @@ class Planning {
     Solution best;
     std::size_t steps = approaches_.size() > 1 ? kFirstLookSteps : params_.max_iterations;
     std::vector<const Approach*> open;
+    std::optional<NoWay> no_way;  // to the first of them
     for (const Approach& approach : approaches_) open.push_back(&approach);
     while (true) {
       std::vector<const Approach*> left;
@@ -168,10 +169,11 @@ class Planning {
                                               {params_.planner, steps, params_.seed}, stop_);
         stop_.cancel().throwIfCancelled();
         if (found.outcome != TwoWaySearch::Outcome::kNone) left.push_back(approach);
+        if (approach == &approaches_[0]) no_way = found.no_way;
         if (found.outcome == TwoWaySearch::Outcome::kFound) consider(*approach, found.arcs, &best);
       }
       if (best.approach != nullptr) return best;
-      if (left.empty()) throw NoPath(whyNone(whyHopeless()));
+      if (left.empty()) throw NoPath(whyNone(whyHopeless(no_way)));
       open = std::move(left);
       if (stop_.isReached()) {
         throw PlanningTimeout(whyNone(text("none was found within ", seconds(params_.time_budget),
@@ -185,20 +187,21 @@ class Planning {
     }
   }
 
-  /// What closes the way, if one narrow place does; for the first of the approaches.
-  std::string whyHopeless() const {
-    const Query& query = approaches_[0].query;
-    const Point2d start = query.start.position(), goal = query.goal.position();
-    const auto stop = [this] { return stop_.isReached(); };
+  /// What closes the way to the first of the approaches, if one narrow place does.
+  std::string whyHopeless(std::optional<NoWay> no_way) const {
+    const char* const kNone = "the finest search found none";
     // the search alone is for callers that only want to know whether there is a way
-    if (params_.planner != "portfolio") return "the finest search found none";
-    if (!isTooNarrow(index_, areaOf(query), start, goal, stop)) {
-      const BoundingBox area = areaOf(query);
+    if (params_.planner != "portfolio") return kNone;
+    const Query& query = approaches_[0].query;
+    const BoundingBox area = areaOf(query);
+    const auto stop = [this] { return stop_.isReached(); };
+    if (!no_way) {
       const DistanceMap to_start(index_, area, query.start), to_goal(index_, area, query.goal);
-      const auto turn = tightTurn(index_, area, query.start, query.goal, {to_start, to_goal}, stop);
-      return turn ? described(*turn) : "the finest search found none";
+      no_way = proveNoWay(index_, area, query.start, query.goal, {to_start, to_goal}, stop);
     }
-    const auto passage = narrowestPassage(index_, areaOf(query), start, goal, stop);
+    if (!no_way) return kNone;
+    if (no_way->turn) return described(*no_way->turn);
+    const auto passage = narrowestPassage(index_, area, query.start.position(), query.goal.position(), stop);
     if (!passage) return "obstacles close every way, or leave less room than the vehicle needs";
     return text("the widest way is only ", metres(passage->width), " wide at ", at(Point2d(passage->at + origin_)),
                 "; the vehicle needs ", metres(vehicle_.width + 2.0 * params_.margin), ", twice the margin included");

@@ -79,11 +79,12 @@ FirstPath findFirstPath(const Scene& scene, const Query& query, const BoundingBo
   const ob::PlannerStatus status = planner->solve(stopped);
   // An approximate solution is none.
   if (status != ob::PlannerStatus::EXACT_SOLUTION) {
-    return {own ? own->outcome() : TwoWaySearch::Outcome::kStopped, {}};
+    if (!own) return {};
+    return {own->outcome(), {}, own->noWay()};
   }
   og::PathGeometric path = *problem->getSolutionPath()->as<og::PathGeometric>();
   if (!is_own) SeededSimplifier(space, request.seed).simplify(path, stopped);
-  return {TwoWaySearch::Outcome::kFound, arcsOf(path, scene.radius)};
+  return {TwoWaySearch::Outcome::kFound, arcsOf(path, scene.radius), std::nullopt};
 }
 
 }  // namespace external_command

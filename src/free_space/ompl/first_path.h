@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "free_space/search/no_way.h"
 #include "free_space/search/two_way_search.h"
 #include "free_space/stop_condition.h"
 
@@ -24,6 +26,7 @@ struct FirstPathRequest {
 struct FirstPath {
   TwoWaySearch::Outcome outcome = TwoWaySearch::Outcome::kStopped;
   Arcs arcs;
+  std::optional<NoWay> no_way;  ///< see HybridAStar
 };
 
 /// Names of the OMPL planners that findFirstPath() knows, besides our own.

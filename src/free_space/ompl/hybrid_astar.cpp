@@ -6,9 +6,7 @@
 #include <algorithm>
 
 #include "first_path.h"
-#include "free_space/search/narrow_passage.h"
 #include "free_space/search/shuffle_search.h"
-#include "free_space/search/tight_turn.h"
 #include "free_space/search/way_pose_search.h"
 #include "ompl_space.h"
 
@@ -56,8 +54,8 @@ std::optional<Arcs> HybridAStar::search(const std::function<bool()>& stop) {
   };
   if (runFor(std::min(kFirstLookSteps, max_steps_))) return search_.arcs();
   if (outcome_ != TwoWaySearch::Outcome::kOutOfSteps || max_steps_ <= kFirstLookSteps) return std::nullopt;
-  if (isTooNarrow(scene_.index, area_, query_.start.position(), query_.goal.position(), stop) ||
-      tightTurn(scene_.index, area_, query_.start, query_.goal, {search_.toStart(), search_.toGoal()}, stop)) {
+  no_way_ = proveNoWay(scene_.index, area_, query_.start, query_.goal, {search_.toStart(), search_.toGoal()}, stop);
+  if (no_way_) {
     outcome_ = TwoWaySearch::Outcome::kNone;
     return std::nullopt;
   }

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 
+#include "free_space/search/no_way.h"
 #include "free_space/search/two_way_search.h"
 
 namespace external_command {
@@ -22,6 +23,9 @@ class HybridAStar : public ompl::base::Planner {
   /// How the last solve() ended.
   TwoWaySearch::Outcome outcome() const { return outcome_; }
 
+  /// The proof by which it ended with kNone; nullopt where the search came to its end.
+  const std::optional<NoWay>& noWay() const { return no_way_; }
+
  private:
   std::optional<Arcs> search(const std::function<bool()>& stop);
 
@@ -31,6 +35,7 @@ class HybridAStar : public ompl::base::Planner {
   std::size_t max_steps_;
   TwoWaySearch search_;
   TwoWaySearch::Outcome outcome_ = TwoWaySearch::Outcome::kStopped;
+  std::optional<NoWay> no_way_;
 };
 
 }  // namespace external_command
