@@ -42,19 +42,25 @@ double DrivingCost::nearLength(const Pose2d& from, const Arcs& arcs) const {
 
 double DrivingCost::nearLength(const Pose2d& from, const ArcSegment* begin, const ArcSegment* end) const {
   double sum = 0.0;
-  Pose2d pose = from;
-  for (const ArcSegment* arc = begin; arc != end; pose = advance(pose, *arc), ++arc) {
-    const double length = std::abs(arc->length);
-    const int steps = static_cast<int>(std::ceil(length / kStep));
-    for (int i = 0; i < steps; ++i)
-      sum += closenessAt(advance(pose, *arc, (i + 0.5) / steps * length)) * length / steps;
+  Frame frame(from);
+  for (const ArcSegment* arc = begin; arc != end; ++arc) {
+    const int steps = static_cast<int>(std::ceil(std::abs(arc->length) / kStep));
+    if (steps == 0) continue;
+    const double step = arc->length / steps;
+    const Stride half(arc->kappa, 0.5 * step);  // the room is looked at in the middle of each step
+    for (int i = 0; i < steps; ++i) {
+      frame.drive(half);
+      sum += closenessAt(frame) * std::abs(step);
+      frame.drive(half);
+    }
   }
   return sum;
 }
 
 /// From 1 at the margin, or nearer, to 0: of what is beside the vehicle. What is ahead of it, it comes to on purpose.
-double DrivingCost::closenessAt(const Pose2d& pose) const {
-  const Point2d middle = pose.position() + index_.box().centre * unitVector(pose.heading);
+double DrivingCost::closenessAt(const Frame& frame) const {
+  const double ahead = index_.box().centre;
+  const Point2d middle(frame.x + ahead * frame.cos, frame.y + ahead * frame.sin);
   return std::clamp(1.0 - (index_.roomBetweenCells(middle) - at_margin_) / closeness_.distance, 0.0, 1.0);
 }
 

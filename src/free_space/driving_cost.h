@@ -33,7 +33,7 @@ class DrivingCost {
 
  private:
   double nearLength(const Pose2d& from, const ArcSegment* begin, const ArcSegment* end) const;
-  double closenessAt(const Pose2d& pose) const;
+  double closenessAt(const Frame& frame) const;
 
   const FootprintIndex& index_;
   CostModel of_arcs_;

@@ -291,25 +291,18 @@ double FootprintIndex::exactDistance(const HalfEdge& edge, const Frame& frame, d
 }
 
 double FootprintIndex::freeLength(const Pose2d& from, const ArcSegment& arc, double step) const {
-  const double length = std::abs(arc.length), sign = arc.length < 0.0 ? -1.0 : 1.0;
-  const double corner_speed = box_.cornerSpeed(arc.kappa);
+  const double length = std::abs(arc.length), corner_speed = box_.cornerSpeed(arc.kappa);
   const double steps = std::ceil(length * corner_speed / step);
-  const double stride = length / std::max(steps, 1.0);
+  const double step_length = arc.length / std::max(steps, 1.0);
   Frame frame(from);
-  double room = 0.0;
-  double skipped_stride = -1.0, forward = 0.0, left = 0.0, turn_cos = 1.0, turn_sin = 0.0;
+  double room = 0.0, steps_of_stride = 1.0;
+  Stride stride(arc.kappa, step_length);
   for (double done = 0.0; done < steps;) {
-    const double skip = std::min(1.0 + std::floor(room / (corner_speed * stride)), steps - done);
-    if (skip != skipped_stride) {
-      skipped_stride = skip;
-      const double turn = arc.kappa * sign * skip * stride, half = 0.5 * turn;
-      const double chord = sign * skip * stride * (std::abs(half) < 1e-6 ? 1.0 : std::sin(half) / half);
-      forward = chord * std::cos(half), left = chord * std::sin(half);
-      turn_cos = std::cos(turn), turn_sin = std::sin(turn);
-    }
-    frame.move(forward, left, turn_cos, turn_sin);
+    const double skip = std::min(1.0 + std::floor(room / (corner_speed * std::abs(step_length))), steps - done);
+    if (skip != steps_of_stride) stride = Stride(arc.kappa, skip * step_length), steps_of_stride = skip;
+    frame.drive(stride);
     room = freeRadius(frame);
-    if (room < 0.0) return done * stride;
+    if (room < 0.0) return done * std::abs(step_length);
     done += skip;
   }
   return length;
@@ -330,11 +323,14 @@ double FootprintIndex::exactRoom(const Frame& frame) const {
 
 bool FootprintIndex::keepsMargin(const Pose2d& from, const ArcSegment& arc) const {
   const double length = std::abs(arc.length), corner_speed = box_.cornerSpeed(arc.kappa);
+  Frame frame(from);
   double room = 0.0;
   for (double s = 0.0; s < length;) {
-    s = std::min(s + std::max(room, kFineStep) / corner_speed, length);
-    room = exactRoom(Frame(advance(from, arc, s)));
+    const double step = std::min(std::max(room, kFineStep) / corner_speed, length - s);
+    frame.drive(Stride(arc.kappa, std::copysign(step, arc.length)));
+    room = exactRoom(frame);
     if (room < 0.0) return false;
+    s += step;
   }
   return true;
 }

@@ -12,18 +12,32 @@
 
 namespace external_command {
 
+/// A piece of an arc in the frame in which it begins. To drive several of the same costs far less than as many poses
+/// do: no angle is taken.
+struct Stride {
+  double forward, left;  ///< of its end [m]
+  double cos, sin;       ///< of the turn
+
+  /// @param length  negative in reverse [m]
+  Stride(double kappa, double length) {
+    const double half_turn = 0.5 * kappa * length, c = std::cos(half_turn), s = std::sin(half_turn);
+    const double chord = std::abs(half_turn) < 1e-9 ? length : length * s / half_turn;
+    forward = chord * c, left = chord * s;
+    cos = c * c - s * s, sin = 2.0 * s * c;
+  }
+};
+
 /// A pose with its heading as a unit vector, for loops that step along an arc.
 struct Frame {
   double x, y, cos, sin;
 
   explicit Frame(const Pose2d& pose) : x(pose.x), y(pose.y), cos(std::cos(pose.heading)), sin(std::sin(pose.heading)) {}
 
-  /// Moves by (forward, left) and turns by the angle whose cosine and sine are given.
-  void move(double forward, double left, double turn_cos, double turn_sin) {
-    x += cos * forward - sin * left;
-    y += sin * forward + cos * left;
-    const double c = cos * turn_cos - sin * turn_sin;
-    sin = sin * turn_cos + cos * turn_sin;
+  void drive(const Stride& stride) {
+    x += cos * stride.forward - sin * stride.left;
+    y += sin * stride.forward + cos * stride.left;
+    const double c = cos * stride.cos - sin * stride.sin;
+    sin = sin * stride.cos + cos * stride.sin;
     cos = c;
   }
 };
