@@ -52,6 +52,15 @@ class TestGate {
     return waitFor([this, count] { return left_ >= count; });
   }
 
+  /// Who waits here has been cancelled, whether or not it gives up for that. To be called by its gives_up().
+  void noteCancel() {
+    is_cancelled_ = true;
+    changed_.notify_all();
+  }
+  bool waitForCancel() {
+    return waitFor([this] { return is_cancelled_; });
+  }
+
   unsigned entered() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return entered_;
@@ -66,7 +75,7 @@ class TestGate {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   unsigned entered_ = 0, left_ = 0;
-  bool is_open_ = false;
+  bool is_open_ = false, is_cancelled_ = false;
 };
 
 /// Occupies the worker threads of the manager that it is loaded into.
@@ -135,7 +144,10 @@ class BlockingProcessor : public MotionCommandProcessor<Service> {
     const auto gate = gate_;
     const bool polls_cancel = polls_cancel_;
     lock.unlock();
-    gate->pass([&] { return polls_cancel && cancel.isCancelled(); });
+    gate->pass([&] {
+      if (cancel.isCancelled()) gate->noteCancel();
+      return polls_cancel && cancel.isCancelled();
+    });
     if (polls_cancel) cancel.throwIfCancelled();
     plan->path.resize(2);
     plan->path[1].x = 10.0;

@@ -43,8 +43,9 @@ MoveBaseAdapter::~MoveBaseAdapter() {
   make_plan_.shutdown();
   if (front_) front_->close();
   {
-    // A goal that the service does not know yet ends when it has been answered.
+    // A goal that the service does not know yet ends when it has been answered, and one that waits is not sent then.
     const std::lock_guard<std::mutex> lock(mutex_);
+    waiting_.reset();
     if (in_work_) cancelInWork(in_work_->arrived.id, "the unloading of " + getName());
   }
   calls_.stop();

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of the plans that programs for move_base ask for few wait, and none holds up the unloading of what makes them.
+// Of the plans that programs for move_base ask for few wait, and none holds up the unloading of what makes them. Of the
+// goals the newest waits, and is driven to only while the adapter is loaded.
+#include <geometry_msgs/PoseStamped.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/GetPlan.h>
 #include <nodelet/loader.h>
@@ -9,30 +11,33 @@
 #include <future>
 #include <pluginlib/class_loader.hpp>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "external_command/PlanningCommand.h"
 #include "support/blocking_nodelets.h"
+#include "support/inbox.h"
 
 namespace external_command {
 namespace {
 
 constexpr const char* kService = "move_base/make_plan";
+constexpr const char* kGoalTopic = "move_base_simple/goal";
 constexpr const char* kAdapter = "move_base_adapter";
 constexpr unsigned kMostInLine = 5;  // one in work, four that wait
 constexpr std::chrono::seconds kLongest(10);
 
 /// The adapter, and a lane follow that plans until the test lets it go on.
-class MakePlan : public testing::Test {
+class MoveBaseAdapterLoaded : public testing::Test {
  protected:
   void SetUp() override {
     ASSERT_TRUE(load("lane_follow", "test/BlockingLaneFollow"));
     ASSERT_TRUE(load(kAdapter, "external_command/MoveBaseAdapter"));
     ASSERT_TRUE(ros::service::waitForService(kService, 10000));
-    gate_ = lane_follow_->holdPlans(true);
   }
 
   void TearDown() override {
-    gate_->open();
+    if (gate_) gate_->open();
     loader_.clear();
   }
 
@@ -43,6 +48,20 @@ class MakePlan : public testing::Test {
   boost::shared_ptr<nodelet::Nodelet> create(const std::string& type) {
     if (type == "test/BlockingLaneFollow") return lane_follow_ = boost::make_shared<BlockingLaneFollow>();
     return classes_.createInstance(type);
+  }
+
+  pluginlib::ClassLoader<nodelet::Nodelet> classes_{"nodelet", "nodelet::Nodelet"};
+  boost::shared_ptr<BlockingLaneFollow> lane_follow_;
+  std::shared_ptr<TestGate> gate_;
+  nodelet::Loader loader_{boost::function<boost::shared_ptr<nodelet::Nodelet>(const std::string&)>(
+      [this](const std::string& type) { return create(type); })};
+};
+
+class MakePlan : public MoveBaseAdapterLoaded {
+ protected:
+  void SetUp() override {
+    MoveBaseAdapterLoaded::SetUp();
+    gate_ = lane_follow_->holdPlans(true);
   }
 
   /// How many poses the plan has: 0 where there is none.
@@ -56,12 +75,35 @@ class MakePlan : public testing::Test {
       return call.response.plan.poses.size();
     });
   }
+};
 
-  pluginlib::ClassLoader<nodelet::Nodelet> classes_{"nodelet", "nodelet::Nodelet"};
-  boost::shared_ptr<BlockingLaneFollow> lane_follow_;
-  std::shared_ptr<TestGate> gate_;
-  nodelet::Loader loader_{boost::function<boost::shared_ptr<nodelet::Nodelet>(const std::string&)>(
-      [this](const std::string& type) { return create(type); })};
+class MoveBaseGoal : public MoveBaseAdapterLoaded {
+ protected:
+  /// A goal in work, whose plan does not end where it is cancelled, and a newer one that waits for its end.
+  void SetUp() override {
+    MoveBaseAdapterLoaded::SetUp();
+    gate_ = lane_follow_->holdPlans(false);
+    publisher_ = ros::NodeHandle().advertise<geometry_msgs::PoseStamped>(kGoalTopic, 1);
+    const auto latest = std::chrono::steady_clock::now() + kLongest;
+    while (publisher_.getNumSubscribers() == 0 && std::chrono::steady_clock::now() < latest) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    publishGoal();
+    ASSERT_TRUE(gate_->waitForEntered(1));
+    publishGoal();
+    ASSERT_TRUE(gate_->waitForCancel());
+  }
+
+  void publishGoal() {
+    geometry_msgs::PoseStamped goal;
+    goal.header.frame_id = "map";
+    goal.pose.position.x = 10.0;
+    goal.pose.orientation.w = 1.0;
+    publisher_.publish(goal);
+  }
+
+  ros::Publisher publisher_;
+  Inbox<PlanningCommand> commands_{"planning/command"};
 };
 
 TEST_F(MakePlan, AnswersOneAfterTheOther) {
@@ -107,12 +149,28 @@ TEST_F(MakePlan, EndsWhereWhatMakesItIsUnloaded) {
   for (auto& answer : asked) EXPECT_EQ(answer.get(), 0u);
 }
 
+TEST_F(MoveBaseGoal, IsDrivenToOnceTheOlderOneHasEnded) {
+  gate_->open();
+  EXPECT_TRUE(gate_->waitForLeft(2));
+  ASSERT_TRUE(commands_.waitFor(1));
+}
+
+TEST_F(MoveBaseGoal, ThatWaitsIsNotDrivenToWhereTheAdapterIsUnloaded) {
+  auto unloaded = std::async(std::launch::async, [this] { return loader_.unload(ros::names::resolve(kAdapter)); });
+  EXPECT_EQ(unloaded.wait_for(std::chrono::milliseconds(100)), std::future_status::timeout)
+      << "before the one in work has ended";
+  gate_->open();
+  EXPECT_TRUE(unloaded.get());
+  EXPECT_EQ(gate_->entered(), 1u);
+  EXPECT_TRUE(commands_.messages().empty());
+}
+
 }  // namespace
 }  // namespace external_command
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "make_plan_test");
+  ros::init(argc, argv, "move_base_adapter_test");
   const ros::NodeHandle nh;  // keeps ROS running between the tests
   return RUN_ALL_TESTS();
 }
