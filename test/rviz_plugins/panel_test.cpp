@@ -20,7 +20,7 @@ class PanelTest : public testing::Test {
  protected:
   void SetUp() override {
     panel_.show();
-    ASSERT_TRUE(PanelHand::waitUntil([&] { return gateway().state().is_found && gateway().state().chassis; }));
+    ASSERT_TRUE(PanelHand::waitUntil([&] { return isReady(); })) << hand_.answers();
     hand_.press("auto");
     ASSERT_TRUE(PanelHand::waitUntil([&] { return mode() == Chassis::COMPLETE_AUTO_DRIVE; }));
     hand_.press("clear");
@@ -28,6 +28,11 @@ class PanelTest : public testing::Test {
     ASSERT_TRUE(waitUntilStanding());
   }
 
+  /// The panel hears the vehicle, and so does the gateway.
+  bool isReady() {
+    const auto& state = gateway().state();
+    return state.is_found && state.chassis && state.readiness && state.readiness->is_ready;
+  }
   const GatewayLink& gateway() { return panel_.model().gateway(); }
   int mode() { return gateway().state().chassis ? gateway().state().chassis->driving_mode : -1; }
   double speed() { return gateway().state().chassis ? std::abs(gateway().state().chassis->speed_mps) : NAN; }
