@@ -4,12 +4,14 @@
 One line per program, the failures' texts at the end, and as the very last line `N passed, N failed`.
 """
 import argparse
+import collections
 import glob
 import json
 import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -41,13 +43,13 @@ class Program:
 
     @property
     def is_registered_by_rostest(self):
-        """By its own CMake functions, as in the examples: results of test nodes lie where all do, and are mixed up with
-        others' that run at the same time."""
+        """By its own CMake functions, as in the examples: results of test nodes lie where all of its package do, and are
+        mixed up with others' that run at the same time."""
         return self.kind == "rostest" and "run_rostest.py" not in self.command[-1]
 
     @property
-    def runs_alone(self):
-        return self.is_serial or self.is_registered_by_rostest
+    def result_folder(self):
+        return os.path.dirname(self.result_file)
 
     @property
     def sub_results(self):
@@ -91,7 +93,7 @@ def _program(test, package, prefix, environment):
 def select(programs, words):
     """The programs whose title contains one of the words; all where there are none."""
     chosen = [program for program in programs if not words or any(word in program.title for word in words)]
-    return sorted(chosen, key=lambda program: (program.runs_alone, program.kind == "rostest", program.title))
+    return sorted(chosen, key=lambda program: (program.is_serial, program.kind == "rostest", program.title))
 
 
 class Runner:
@@ -100,6 +102,7 @@ class Runner:
         os.makedirs(self._log_dir, exist_ok=True)
         self._live_marks = set()
         self._is_stopped = False
+        self._folders = collections.defaultdict(threading.Lock)  # of results that are told apart by the time alone
 
     def stop(self):
         """Ends what is running, from whichever thread; nothing is started any more."""
@@ -109,6 +112,12 @@ class Runner:
 
     def run(self, program):
         """Runs one program to its end, or to the time-out; leaves none of its processes. Returns its Counts."""
+        if program.is_registered_by_rostest:
+            with self._folders[program.result_folder]:
+                return self._run(program)
+        return self._run(program)
+
+    def _run(self, program):
         if self._is_stopped:
             return Counts()
         if program.is_split_by_rostest:
@@ -154,7 +163,7 @@ def _tail(path, lines=20):
 
 def run_all(programs, runner, jobs):
     total = Counts()
-    side_by_side = [program for program in programs if not program.runs_alone]
+    side_by_side = [program for program in programs if not program.is_serial]
     with ThreadPoolExecutor(jobs) as pool:
         try:
             for counts in pool.map(runner.run, side_by_side):
@@ -163,7 +172,7 @@ def run_all(programs, runner, jobs):
             runner.stop()
             raise
     for program in programs:
-        if program.runs_alone:
+        if program.is_serial:
             total.add(runner.run(program))
     return total
 
@@ -181,7 +190,8 @@ def main():
     parser.add_argument("build_dir", type=os.path.abspath)
     parser.add_argument("names", nargs="*", help="only programs whose kind and name contain one of these words")
     parser.add_argument("--list", action="store_true", help="print the programs and stop")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="programs that run side by side")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() + 1,
+                        help="programs that run side by side; half of their time they wait for vehicles that drive")
     args = parser.parse_args()
     programs = select(list_programs(args.build_dir), args.names)
     if args.list:
