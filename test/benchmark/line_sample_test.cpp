@@ -9,7 +9,7 @@ namespace {
 
 using Rings = std::vector<std::vector<Point2d>>;
 
-std::vector<Point2d> box(double x0, double y0, double x1, double y1) {
+std::vector<Point2d> rectangle(double x0, double y0, double x1, double y1) {
   return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
 }
 
@@ -26,19 +26,20 @@ LineSample sampleOf(const Rings& shapes) {
 }
 
 TEST(LineSample, MeasuresAreas) {
-  EXPECT_NEAR(kLines.area(sampleOf({box(0, 0, 20, 1.6)})), 32.0, 0.01);
+  EXPECT_NEAR(kLines.area(sampleOf({rectangle(0, 0, 20, 1.6)})), 32.0, 0.01);
   EXPECT_NEAR(kLines.area(sampleOf({{{0, 0}, {10, 1}, {3, 8}}})), 38.5, 0.01);
 }
 
 TEST(LineSample, CountsWhatOverlapsOnceAfterMerging) {
-  LineSample sample = sampleOf({box(0, 0, 10, 4), box(5, 0, 15, 4), box(30, 0, 31, 1)});
+  LineSample sample = sampleOf({rectangle(0, 0, 10, 4), rectangle(5, 0, 15, 4), rectangle(30, 0, 31, 1)});
   EXPECT_NEAR(kLines.area(sample), 81.0, 0.02);
   sample.merge();
   EXPECT_NEAR(kLines.area(sample), 61.0, 0.02);
 }
 
 TEST(LineSample, CutsShapes) {
-  LineSample whole = sampleOf({box(0, 0, 20, 10)}), cut = sampleOf({box(5, 2, 7, 4), box(15, -5, 25, 5)});
+  LineSample whole = sampleOf({rectangle(0, 0, 20, 10)}),
+             cut = sampleOf({rectangle(5, 2, 7, 4), rectangle(15, -5, 25, 5)});
   whole.merge();
   cut.merge();
   EXPECT_NEAR(kLines.area(whole.common(cut)), 29.0, 0.02);
@@ -50,7 +51,7 @@ TEST(LineSample, OfNothingIsEmpty) {
   LineSample nothing;
   nothing.merge();
   EXPECT_EQ(kLines.area(nothing), 0.0);
-  EXPECT_EQ(kLines.area(nothing.common(sampleOf({box(0, 0, 1, 1)}))), 0.0);
+  EXPECT_EQ(kLines.area(nothing.common(sampleOf({rectangle(0, 0, 1, 1)}))), 0.0);
 }
 
 }  // namespace

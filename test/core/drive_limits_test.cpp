@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "external_command/core/error.h"
+#include "support/refusal.h"
 
 namespace external_command {
 namespace {
@@ -34,13 +35,8 @@ Path straight(double y, double from_x, double to_x) {
   return path;
 }
 
-std::string refusalOf(const DriveLimits& limits, const Path& path) {
-  try {
-    limits.requireInside(path, VehicleParams());
-    return "";
-  } catch (const InvalidRequest& error) {
-    return error.what();
-  }
+std::string pathRefusal(const DriveLimits& limits, const Path& path) {
+  return refusalOf([&] { limits.requireInside(path, VehicleParams()); });
 }
 
 TEST(DriveLimits, TakeEverythingWhereNoneIsSet) {
@@ -48,25 +44,25 @@ TEST(DriveLimits, TakeEverythingWhereNoneIsSet) {
   EXPECT_NO_THROW(limits.validate());
   EXPECT_NO_THROW(limits.requireSpeed(100.0));
   EXPECT_NO_THROW(limits.requireGoal({0.0, 0.0}, {1e6, 0.0}));
-  EXPECT_EQ(refusalOf(limits, straight(0.0, 0.0, 1000.0)), "");
+  EXPECT_EQ(pathRefusal(limits, straight(0.0, 0.0, 1000.0)), "");
 }
 
 TEST(DriveLimits, TakeAPathThatKeepsTheWholeVehicleInside) {
-  EXPECT_EQ(refusalOf(yard(), straight(30.0, 1.0, 96.0)), "");
-  EXPECT_EQ(refusalOf(yard(), straight(1.1, 1.0, 96.0)), "") << "the vehicle is 2 m wide";
+  EXPECT_EQ(pathRefusal(yard(), straight(30.0, 1.0, 96.0)), "");
+  EXPECT_EQ(pathRefusal(yard(), straight(1.1, 1.0, 96.0)), "") << "the vehicle is 2 m wide";
 }
 
 TEST(DriveLimits, RefuseAPathOfWhichACornerOfTheVehicleLeavesTheFence) {
-  EXPECT_NE(refusalOf(yard(), straight(0.9, 1.0, 96.0)), "");
-  EXPECT_NE(refusalOf(yard(), straight(30.0, 0.5, 96.0)), "") << "the rear overhangs";
-  EXPECT_EQ(refusalOf(yard(), straight(30.0, 1.0, 120.0)),
+  EXPECT_NE(pathRefusal(yard(), straight(0.9, 1.0, 96.0)), "");
+  EXPECT_NE(pathRefusal(yard(), straight(30.0, 0.5, 96.0)), "") << "the rear overhangs";
+  EXPECT_EQ(pathRefusal(yard(), straight(30.0, 1.0, 120.0)),
             "the path leaves the geofence at (96.50, 30.00), 95.50 m from its beginning (~limits/geofence)");
 }
 
 TEST(DriveLimits, RefuseAPathWhoseVehicleCoversASpikeOfTheFence) {
-  EXPECT_EQ(refusalOf(yard(true), straight(30.0, 1.0, 96.0)), "");
-  EXPECT_NE(refusalOf(yard(true), straight(31.5, 1.0, 96.0)), "") << "no corner of the footprint is outside";
-  EXPECT_NE(refusalOf(yard(true), straight(40.0, 1.0, 96.0)), "") << "nor is the tip of the spike inside it";
+  EXPECT_EQ(pathRefusal(yard(true), straight(30.0, 1.0, 96.0)), "");
+  EXPECT_NE(pathRefusal(yard(true), straight(31.5, 1.0, 96.0)), "") << "no corner of the footprint is outside";
+  EXPECT_NE(pathRefusal(yard(true), straight(40.0, 1.0, 96.0)), "") << "nor is the tip of the spike inside it";
 }
 
 TEST(DriveLimits, RefuseAGoalTooFarAway) {

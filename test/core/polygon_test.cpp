@@ -10,6 +10,7 @@
 #include <random>
 
 #include "external_command/core/error.h"
+#include "support/refusal.h"
 
 namespace external_command {
 namespace {
@@ -28,12 +29,7 @@ const Points kU = {{0, 0}, {30, 0}, {30, 20}, {20, 20}, {20, 10}, {10, 10}, {10,
 
 /// The text that a polygon of these points is refused with; empty where it is taken.
 std::string refusal(const Points& points) {
-  try {
-    Polygon(points, "roi");
-  } catch (const InvalidRequest& error) {
-    return error.what();
-  }
-  return "";
+  return refusalOf([&] { Polygon(points, "roi"); });
 }
 
 void expectRefusal(const Points& points, const std::string& what) {

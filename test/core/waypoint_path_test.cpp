@@ -10,6 +10,7 @@
 #include <string>
 
 #include "external_command/core/error.h"
+#include "support/refusal.h"
 
 namespace external_command {
 namespace {
@@ -57,13 +58,8 @@ double distanceToLine(const Point2d& point, const Point2d& a, const Point2d& b) 
   return std::abs(cross((b - a).normalized(), point - a));
 }
 
-std::string refusalOf(const WaypointLine& line) {
-  try {
-    through(line);
-  } catch (const InvalidRequest& error) {
-    return error.what();
-  }
-  return "";
+std::string lineRefusal(const WaypointLine& line) {
+  return refusalOf([&] { through(line); });
 }
 
 TEST(WaypointPath, GoesStraightThroughTwoPoints) {
@@ -211,8 +207,8 @@ TEST(WaypointPath, TakesRepeatedPointsForOne) {
 
 TEST(WaypointPath, TakesTheLastHeadingOfARepeatedPoint) {
   const std::vector<Point2d> points = {{0.0, 0.0}, {0.0, 0.0}, {5.0, 0.0}, {5.0, 0.0}};
-  EXPECT_EQ(refusalOf({points, {1.5, 0.0, 1.5, 0.1}}), "");
-  EXPECT_NE(refusalOf({points, {0.0, 1.5, 0.0, 1.5}}).find("heading[0]"), std::string::npos);
+  EXPECT_EQ(lineRefusal({points, {1.5, 0.0, 1.5, 0.1}}), "");
+  EXPECT_NE(lineRefusal({points, {0.0, 1.5, 0.0, 1.5}}).find("heading[0]"), std::string::npos);
 }
 
 TEST(WaypointPath, NumbersPointsAsTheyWereGiven) {
@@ -249,19 +245,19 @@ TEST(WaypointPath, LeavesAnEndHeadingThatTheVehicleCannotTurnTo) {
 
 TEST(WaypointPath, RefusesPointsThatAreNoPath) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NE(refusalOf({{{1.0, 2.0}}, {}}).find("at least 2"), std::string::npos);
-  EXPECT_NE(refusalOf({{{1.0, 2.0}, {nan, 0.0}}, {}}).find("way_point[1] is not finite"), std::string::npos);
-  EXPECT_NE(refusalOf({{{1.0, 2.0}, {1.0, 2.0}}, {}}).find("2 points, all in one place"), std::string::npos);
-  EXPECT_NE(refusalOf({{{0.0, 0.0}, {1e9, 0.0}}, {}}).find("too long"), std::string::npos);
-  EXPECT_NE(refusalOf({{{-1e308, 0.0}, {1e308, 0.0}}, {}}).find("too long"), std::string::npos);
+  EXPECT_NE(lineRefusal({{{1.0, 2.0}}, {}}).find("at least 2"), std::string::npos);
+  EXPECT_NE(lineRefusal({{{1.0, 2.0}, {nan, 0.0}}, {}}).find("way_point[1] is not finite"), std::string::npos);
+  EXPECT_NE(lineRefusal({{{1.0, 2.0}, {1.0, 2.0}}, {}}).find("2 points, all in one place"), std::string::npos);
+  EXPECT_NE(lineRefusal({{{0.0, 0.0}, {1e9, 0.0}}, {}}).find("too long"), std::string::npos);
+  EXPECT_NE(lineRefusal({{{-1e308, 0.0}, {1e308, 0.0}}, {}}).find("too long"), std::string::npos);
 }
 
 TEST(WaypointPath, RefusesHeadingsThatAreNoneOfAVehicle) {
   const std::vector<Point2d> points = {{0.0, 0.0}, {5.0, 0.0}};
-  EXPECT_NE(refusalOf({points, {0.0}}).find("heading has 1 elements"), std::string::npos);
-  EXPECT_NE(refusalOf({points, {0.0, std::nan("")}}).find("heading[1] is not finite"), std::string::npos);
-  EXPECT_NE(refusalOf({points, {M_PI / 2, M_PI / 2}}).find("across the way"), std::string::npos);
-  EXPECT_EQ(refusalOf({points, {0.3, -0.2}}), "");
+  EXPECT_NE(lineRefusal({points, {0.0}}).find("heading has 1 elements"), std::string::npos);
+  EXPECT_NE(lineRefusal({points, {0.0, std::nan("")}}).find("heading[1] is not finite"), std::string::npos);
+  EXPECT_NE(lineRefusal({points, {M_PI / 2, M_PI / 2}}).find("across the way"), std::string::npos);
+  EXPECT_EQ(lineRefusal({points, {0.3, -0.2}}), "");
 }
 
 TEST(WaypointPath, TakesALineThatTurnsBackOnItselfAsACorner) {

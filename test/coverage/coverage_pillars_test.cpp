@@ -9,8 +9,6 @@
 namespace external_command {
 namespace {
 
-Polygon post(double x, double y) { return box(x - 0.3, y - 0.3, x + 0.3, y + 0.3); }
-
 /// Two rows of posts:
 ///   +--------------------+
 ///   |   .    .    .    . |

@@ -15,6 +15,8 @@ inline Polygon box(double x0, double y0, double x1, double y1) {
   return Polygon({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, "box");
 }
 
+inline Polygon post(double x, double y) { return box(x - 0.3, y - 0.3, x + 0.3, y + 0.3); }
+
 inline CoverageParams params() {
   CoverageParams params;
   params.swath_width = 1.6;

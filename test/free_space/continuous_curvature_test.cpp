@@ -4,27 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "external_command/free_space/free_space_planner.h"
-#include "support/parking_worlds.h"
+#include "quick_plans.h"
 #include "support/path_matchers.h"
 
 namespace external_command {
 namespace {
 
-constexpr double kMarginSlack = 2e-3;  ///< of the margin, that two checks may miss between them [m]
-
 FreeSpaceParams paramsWith(bool continuous_curvature) {
-  FreeSpaceParams params;
-  params.margin = 0.05;
-  params.time_budget = 600.0;  // the iterations bound the work
-  params.improve_budget = 300.0;
-  params.improve_iterations = 1000;
+  FreeSpaceParams params = quickParams();
   params.continuous_curvature = continuous_curvature;
   return params;
-}
-
-FreeSpacePlan planned(const ParkingWorld& world, const FreeSpaceParams& params) {
-  return FreeSpacePlanner(world.vehicle, params).plan(world.start, {world.goal}, world.region, {});
 }
 
 /// The fastest that the front wheels have to turn while the vehicle drives as fast as the points allow [rad/s].

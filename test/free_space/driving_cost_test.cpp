@@ -1,26 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "external_command/free_space/free_space_planner.h"
-#include "support/parking_worlds.h"
+#include "quick_plans.h"
 #include "support/path_matchers.h"
 
 namespace external_command {
 namespace {
 
-FreeSpaceParams paramsWith(double reverse_factor) {
-  FreeSpaceParams params;
-  params.margin = 0.05;
-  params.time_budget = 600.0;  // the iterations bound the work
-  params.improve_budget = 300.0;
-  params.improve_iterations = 1000;
+FreeSpaceParams reversingAt(double reverse_factor) {
+  FreeSpaceParams params = quickParams();
   params.reverse_factor = reverse_factor;
   return params;
 }
 
 /// A free plain; the goal lies behind the vehicle, which has room to turn round.
 FreeSpacePlan plannedBackwards(double distance, double reverse_factor) {
-  return FreeSpacePlanner(smallCar(), paramsWith(reverse_factor))
+  return FreeSpacePlanner(smallCar(), reversingAt(reverse_factor))
       .plan({0.0, 0.0, 0.0}, {{-distance, 3.0, 0.0}}, Region(), {});
 }
 
@@ -43,7 +38,7 @@ double wayOffTheWall(double closeness_cost) {
   Region::Parts parts;
   parts.non_drivable.push_back(box({20.0, -0.5}, 80.0, 1.0));
   const double beside = vehicle.width / 2.0 + 0.25;  // nearer, it cannot turn away: the rear swings out
-  FreeSpaceParams params = paramsWith(2.0);
+  FreeSpaceParams params = reversingAt(2.0);
   params.closeness_cost = closeness_cost;
   const FreeSpacePlan result =
       FreeSpacePlanner(vehicle, params).plan({0.0, beside, 0.0}, {{40.0, beside, 0.0}}, Region(std::move(parts)), {});
@@ -62,7 +57,7 @@ TEST(DrivingCost, KeepsAwayFromAWallWhereThereIsRoom) { EXPECT_GT(wayOffTheWall(
 TEST(DrivingCost, FollowsTheWallWhereClosenessCostsNothing) { EXPECT_LT(wayOffTheWall(0.0), 0.26); }
 
 double wheelTurns(double steering_cost) {
-  FreeSpaceParams params = paramsWith(2.0);
+  FreeSpaceParams params = reversingAt(2.0);
   params.steering_cost = steering_cost;
   double sum = 0.0;
   for (const ParkingWorld& world : {parallelSlot(1.5), parallelSlot(0.7), bay(0.4), twoYards(1.0)}) {
@@ -76,8 +71,7 @@ TEST(DrivingCost, TurnsTheWheelsLessWhereThatHasAPrice) { EXPECT_LT(wheelTurns(0
 TEST(DrivingCost, IsToldWithEachPath) {
   for (const double reverse_factor : {1.0, 2.0, 5.0}) {
     const ParkingWorld world = bay(1.0);
-    const FreeSpacePlan result =
-        FreeSpacePlanner(world.vehicle, paramsWith(reverse_factor)).plan(world.start, {world.goal}, world.region, {});
+    const FreeSpacePlan result = planned(world, reversingAt(reverse_factor));
     const double driving = result.length + (reverse_factor - 1.0) * result.reverse_length;
     const FreeSpaceParams params;
     const double steering = params.steering_cost * result.wheel_turns;

@@ -2,28 +2,15 @@
 #include <gtest/gtest.h>
 
 #include "external_command/core/error.h"
-#include "external_command/free_space/free_space_planner.h"
 #include "external_command/motion/collision_checker.h"
-#include "support/parking_worlds.h"
+#include "quick_plans.h"
 #include "support/path_matchers.h"
 #include "support/reference_clearance.h"
 
 namespace external_command {
 namespace {
 
-constexpr double kMarginSlack = 2e-3;  ///< of the margin, that two checks may miss between them [m]
-
-FreeSpaceParams quickParams() {
-  FreeSpaceParams params;
-  params.time_budget = 600.0;  // the iterations bound the work
-  params.improve_budget = 300.0;
-  params.improve_iterations = 1000;
-  return params;
-}
-
-FreeSpacePlan planned(const ParkingWorld& world) {
-  return FreeSpacePlanner(world.vehicle, quickParams()).plan(world.start, {world.goal}, world.region, {});
-}
+FreeSpaceParams defaultMargin() { return quickParams(FreeSpaceParams().margin); }
 
 /// Whether the path comes nearer than the margin only within `reach` [m] of `place`.
 testing::AssertionResult keepsTheMarginAwayFrom(const Pose2d& place, double reach, const FreeSpacePlan& result,
@@ -32,12 +19,12 @@ testing::AssertionResult keepsTheMarginAwayFrom(const Pose2d& place, double reac
   for (const ReferencePoint& point : result.path) {
     if (std::hypot(point.x - place.x, point.y - place.y) > reach) away.push_back(point);
   }
-  return staysClear(away, world.vehicle, world.region, quickParams().margin - kMarginSlack);
+  return staysClear(away, world.vehicle, world.region, defaultMargin().margin - kMarginSlack);
 }
 
 TEST(EasedMargin, LetsAPathEndBetweenCarsNearerThanTheMargin) {
   const ParkingWorld world = bay(0.12);
-  const FreeSpacePlan result = planned(world);
+  const FreeSpacePlan result = planned(world, defaultMargin());
   EXPECT_TRUE(joins(result.path, world.start, world.goal));
   EXPECT_TRUE(isDrivable(result.path, world.vehicle));
   EXPECT_TRUE(staysClear(result.path, world.vehicle, world.region, 0.03 - kMarginSlack));
@@ -50,20 +37,20 @@ TEST(EasedMargin, LetsAPathEndBetweenCarsNearerThanTheMargin) {
 TEST(EasedMargin, LetsAPathBeginBetweenThem) {
   ParkingWorld world = bay(0.12);
   std::swap(world.start, world.goal);
-  const FreeSpacePlan result = planned(world);
+  const FreeSpacePlan result = planned(world, defaultMargin());
   EXPECT_TRUE(joins(result.path, world.start, world.goal));
   ASSERT_EQ(result.warnings.size(), 1u);
   EXPECT_NE(result.warnings[0].find("the start ("), std::string::npos) << result.warnings[0];
 }
 
-TEST(EasedMargin, IsNotToldWhereThereIsRoom) { EXPECT_TRUE(planned(bay(0.6)).warnings.empty()); }
+TEST(EasedMargin, IsNotToldWhereThereIsRoom) { EXPECT_TRUE(planned(bay(0.6), defaultMargin()).warnings.empty()); }
 
 TEST(EasedMargin, RefusesOnlyWhatTheBareFootprintMeets) {
-  EXPECT_NO_THROW(planned(bay(0.02)));
-  EXPECT_THROW(planned(bay(-0.02)), GoalBlocked);
+  EXPECT_NO_THROW(planned(bay(0.02), defaultMargin()));
+  EXPECT_THROW(planned(bay(-0.02), defaultMargin()), GoalBlocked);
   ParkingWorld world = bay(-0.02);
   std::swap(world.start, world.goal);
-  EXPECT_THROW(planned(world), StartBlocked);
+  EXPECT_THROW(planned(world, defaultMargin()), StartBlocked);
 }
 
 TEST(EasedMargin, HoldsForTheNearObstacleAndNoOther) {

@@ -9,27 +9,12 @@
 
 #include "external_command/core/error.h"
 #include "external_command/free_space/planner_log.h"
+#include "quick_plans.h"
 #include "support/parking_worlds.h"
 #include "support/path_matchers.h"
 
 namespace external_command {
 namespace {
-
-constexpr double kMarginSlack = 2e-3;  ///< of the margin, that two checks may miss between them [m]
-
-/// A budget of work, so that results do not depend on the clock.
-FreeSpaceParams quickParams(double margin = 0.05) {
-  FreeSpaceParams params;
-  params.margin = margin;
-  params.time_budget = 600.0;  // the iterations bound the work, whatever else the machine does
-  params.improve_budget = 300.0;
-  params.improve_iterations = 1000;
-  return params;
-}
-
-FreeSpacePlan planned(const ParkingWorld& world, const FreeSpaceParams& params) {
-  return FreeSpacePlanner(world.vehicle, params).plan(world.start, {world.goal}, world.region, {});
-}
 
 testing::AssertionResult isValid(const FreeSpacePlan& result, const ParkingWorld& world,
                                  const FreeSpaceParams& params) {

@@ -6,7 +6,7 @@
 
 #include "../benchmark/made_cases.h"
 #include "external_command/core/error.h"
-#include "external_command/free_space/free_space_planner.h"
+#include "quick_plans.h"
 #include "support/path_matchers.h"
 
 namespace external_command {
@@ -14,10 +14,8 @@ namespace {
 
 using benchmark::ParkingCase;
 
-FreeSpaceParams quickParams() {
-  FreeSpaceParams params;
-  params.margin = 0.01;
-  params.time_budget = 600.0;  // the iterations bound the work
+FreeSpaceParams firstPathParams() {
+  FreeSpaceParams params = quickParams(0.01);
   params.improve_budget = 0.0;
   params.max_iterations = 200'000;
   return params;
@@ -31,7 +29,7 @@ ParkingCase madeCase(const std::string& name) {
   throw std::invalid_argument("there is no made case " + name);
 }
 
-FreeSpacePlan planned(const ParkingCase& task, const FreeSpaceParams& params = quickParams()) {
+FreeSpacePlan planned(const ParkingCase& task, const FreeSpaceParams& params = firstPathParams()) {
   return FreeSpacePlanner(task.vehicle, params).plan(task.start, {task.goal}, task.region, {});
 }
 
@@ -58,7 +56,7 @@ TEST(TightPlaces, AreShuffledThrough) {
 
 TEST(LongWays, GetCheaperWithMoreWork) {
   const ParkingCase task = madeCase("lot_100x60_100");
-  FreeSpaceParams params = quickParams();
+  FreeSpaceParams params = firstPathParams();
   params.improve_budget = 300.0;
   params.improve_iterations = 5000;
   const FreeSpacePlan result = planned(task, params);

@@ -98,6 +98,8 @@ std::string bytesOf(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+MapData dataOf(const std::string& bytes) { return readMapData(TemporaryFile(bytes).path()); }
+
 std::vector<std::string> sharedMaps() {
   std::vector<std::string> found;
   for (const char* name : {"autonomoustuff/base_map.bin", "town01/base_map.bin", "town10hd/base_map.bin"}) {

@@ -28,6 +28,9 @@ class TemporaryFile {
 
 std::string bytesOf(const std::string& file);
 
+/// What a file of these bytes says.
+MapData dataOf(const std::string& bytes);
+
 /// The three maps beside the checkout; empty where they are not there.
 std::vector<std::string> sharedMaps();
 

@@ -65,10 +65,8 @@ proto::Map everything() {
   return map;
 }
 
-MapData read(const std::string& bytes) { return readMapData(TemporaryFile(bytes).path()); }
-
 TEST(MapReader, ReadsEveryFieldOfALane) {
-  const MapData data = read(everything().SerializeAsString());
+  const MapData data = dataOf(everything().SerializeAsString());
   ASSERT_EQ(data.lanes.size(), 1u);
   const LaneData& lane = data.lanes[0];
   using Points = std::vector<Point2d>;
@@ -104,7 +102,7 @@ TEST(MapReader, ReadsEveryFieldOfALane) {
 }
 
 TEST(MapReader, ReadsEveryFieldOfTheOtherObjects) {
-  const MapData data = read(everything().SerializeAsString());
+  const MapData data = dataOf(everything().SerializeAsString());
   EXPECT_EQ(data.version, "1.5");
   EXPECT_EQ(data.projection, "+proj=utm +zone=10");
   EXPECT_EQ(data.junctions.at(0).id, "j");
@@ -133,13 +131,13 @@ TEST(MapReader, ReadsEveryFieldOfTheOtherObjects) {
 }
 
 TEST(MapReader, ReadsTheSameFromTextAndBinary) {
-  EXPECT_TRUE(sameData(read(everything().SerializeAsString()), read(kEverything)));
+  EXPECT_TRUE(sameData(dataOf(everything().SerializeAsString()), dataOf(kEverything)));
 }
 
 TEST(MapReader, ReadsWhatProtobufPrints) {
   std::string printed;
   google::protobuf::TextFormat::PrintToString(everything(), &printed);
-  EXPECT_TRUE(sameData(read(kEverything), read(printed)));
+  EXPECT_TRUE(sameData(dataOf(kEverything), dataOf(printed)));
 }
 
 TEST(MapReader, KnowsEveryEnumerator) {
@@ -148,29 +146,29 @@ TEST(MapReader, KnowsEveryEnumerator) {
                             LaneType::kParking, LaneType::kShoulder,    LaneType::kShared};
   for (int i = 0; i < 7; ++i) {
     map.mutable_lane(0)->set_type(static_cast<proto::Lane::LaneType>(i + 1));
-    EXPECT_EQ(read(map.SerializeAsString()).lanes[0].type, types[i]);
+    EXPECT_EQ(dataOf(map.SerializeAsString()).lanes[0].type, types[i]);
   }
   const LaneTurn turns[] = {LaneTurn::kNoTurn, LaneTurn::kLeft, LaneTurn::kRight, LaneTurn::kUTurn};
   for (int i = 0; i < 4; ++i) {
     map.mutable_lane(0)->set_turn(static_cast<proto::Lane::LaneTurn>(i + 1));
-    EXPECT_EQ(read(map.SerializeAsString()).lanes[0].turn, turns[i]);
+    EXPECT_EQ(dataOf(map.SerializeAsString()).lanes[0].turn, turns[i]);
   }
   const LaneDirection directions[] = {LaneDirection::kForward, LaneDirection::kBackward, LaneDirection::kBidirection};
   for (int i = 0; i < 3; ++i) {
     map.mutable_lane(0)->set_direction(static_cast<proto::Lane::LaneDirection>(i + 1));
-    EXPECT_EQ(read(map.SerializeAsString()).lanes[0].direction, directions[i]);
+    EXPECT_EQ(dataOf(map.SerializeAsString()).lanes[0].direction, directions[i]);
   }
   for (int i = 0; i < 7; ++i) {
     auto* boundary = map.mutable_lane(0)->mutable_right_boundary()->mutable_boundary_type(0);
     boundary->set_types(0, static_cast<proto::LaneBoundaryType::Type>(i));
-    EXPECT_EQ(static_cast<int>(read(map.SerializeAsString()).lanes[0].right.types[0].type), i);
+    EXPECT_EQ(static_cast<int>(dataOf(map.SerializeAsString()).lanes[0].right.types[0].type), i);
   }
 }
 
 TEST(MapReader, TakesAnUnsetTypeForADrivingLaneAndSaysSo) {
   proto::Map map = everything();
   map.mutable_lane(0)->clear_type();
-  const MapData data = read(map.SerializeAsString());
+  const MapData data = dataOf(map.SerializeAsString());
   EXPECT_EQ(data.lanes[0].type, LaneType::kCityDriving);
   EXPECT_TRUE(warnsOf(HdMap(data, Point2d::Zero()).warnings(), 1, "lanes without a type"));
 }
@@ -179,7 +177,7 @@ TEST(MapReader, DoesNotDriveOnALaneOfAnUnknownType) {
   proto::Map map = everything();
   map.mutable_lane(0)->clear_type();
   map.mutable_lane(0)->mutable_unknown_fields()->AddVarint(proto::Lane::kTypeFieldNumber, 77);
-  const MapData data = read(map.SerializeAsString());
+  const MapData data = dataOf(map.SerializeAsString());
   EXPECT_EQ(data.lanes[0].type, LaneType::kNone);
   EXPECT_TRUE(warnsOf(HdMap(data, Point2d::Zero()).warnings(), 1, "lanes of a type that is not known"));
 }
@@ -196,7 +194,7 @@ TEST(MapReader, PassesOverObjectsAndFieldsItDoesNotKnow) {
   addUnknown(&map);
   addUnknown(map.mutable_lane(0));
   addUnknown(map.mutable_lane(0)->mutable_central_curve());
-  EXPECT_TRUE(sameData(read(map.SerializeAsString()), read(kEverything)));
+  EXPECT_TRUE(sameData(dataOf(map.SerializeAsString()), dataOf(kEverything)));
 }
 
 TEST(MapReader, SubtractsTheOriginThatIsAskedFor) {

@@ -10,13 +10,11 @@
 namespace external_command {
 namespace {
 
-MapData read(const std::string& text) { return readMapData(TemporaryFile(text).path()); }
-
 /// A text with one lane, of which `fields` are some.
 std::string lane(const std::string& fields) { return "lane { id { id: \"a\" } " + fields + " }\n"; }
 
 TEST(MapText, ReadsNumbersInEveryNotation) {
-  const auto lengthOf = [](const std::string& number) { return read(lane("length: " + number)).lanes[0].length; };
+  const auto lengthOf = [](const std::string& number) { return dataOf(lane("length: " + number)).lanes[0].length; };
   EXPECT_EQ(lengthOf("1"), 1.0);
   EXPECT_EQ(lengthOf("-1.5"), -1.5);
   EXPECT_EQ(lengthOf("- 2"), -2.0);
@@ -29,7 +27,7 @@ TEST(MapText, ReadsNumbersInEveryNotation) {
 }
 
 TEST(MapText, ReadsStringsInEveryNotation) {
-  const auto idOf = [](const std::string& id) { return read("lane { id { id: " + id + " } }").lanes[0].id; };
+  const auto idOf = [](const std::string& id) { return dataOf("lane { id { id: " + id + " } }").lanes[0].id; };
   EXPECT_EQ(idOf("'a'"), "a");
   EXPECT_EQ(idOf("\"a\" 'b'\n\"c\""), "abc");
   EXPECT_EQ(idOf("\"\\303\\244\\n\\\"\""), "\xc3\xa4\n\"");
@@ -41,13 +39,13 @@ TEST(MapText, ReadsEverySpellingOfAField) {
        {"lane { id { id: \"a\" } type: SIDEWALK }", "lane: { id: { id: \"a\" }, type: SIDEWALK; };",
         "lane < id < id: \"a\" > type: 4 >", "lane: [{ id { id: \"a\" } type: SIDEWALK }]",
         "# a comment\nlane {# another\n id { id: 'a' } type:SIDEWALK}", "lane{id{id:\"a\"}type:SIDEWALK}\r\n"}) {
-    const MapData data = read(text);
+    const MapData data = dataOf(text);
     EXPECT_EQ(data.lanes.at(0).id, "a") << text;
     EXPECT_EQ(data.lanes.at(0).type, LaneType::kSidewalk) << text;
   }
-  EXPECT_TRUE(read(lane("left_boundary { virtual: true }")).lanes[0].left.is_virtual);
-  EXPECT_FALSE(read(lane("left_boundary { virtual: false }")).lanes[0].left.is_virtual);
-  const MapData data = read(lane("left_boundary { boundary_type { types: [CURB, SOLID_WHITE] } }"));
+  EXPECT_TRUE(dataOf(lane("left_boundary { virtual: true }")).lanes[0].left.is_virtual);
+  EXPECT_FALSE(dataOf(lane("left_boundary { virtual: false }")).lanes[0].left.is_virtual);
+  const MapData data = dataOf(lane("left_boundary { boundary_type { types: [CURB, SOLID_WHITE] } }"));
   EXPECT_EQ(data.lanes[0].left.types[0].type, BoundaryType::kCurb);
 }
 
@@ -57,15 +55,15 @@ TEST(MapText, PassesOverFieldsItDoesNotKnow) {
         "foo: { }", "foo: [1, 2, 3]", "foo: [{ bar: 1 }, { bar: 2 }]", "foo: []", "[some.extension]: 5",
         "[some.extension] { bar: 1 }", "[type.googleapis.com/some.Type] { bar: 1 }", "foo: -inf,", "foo: 1;",
         "speed_limits: 3"}) {
-    const MapData data = read(lane(std::string(unknown) + " speed_limit: 3"));
+    const MapData data = dataOf(lane(std::string(unknown) + " speed_limit: 3"));
     EXPECT_EQ(data.lanes.at(0).speed_limit, 3.0) << unknown;
-    EXPECT_EQ(read(std::string(unknown) + "\n" + lane("")).lanes.size(), 1u) << unknown;
+    EXPECT_EQ(dataOf(std::string(unknown) + "\n" + lane("")).lanes.size(), 1u) << unknown;
   }
 }
 
 TEST(MapText, DoesNotDriveOnALaneOfAnUnknownType) {
   for (const char* type : {"type: HOVERCRAFT", "type: 99", "type: -1", "type: 1e30"}) {
-    const MapData data = read(lane(type));
+    const MapData data = dataOf(lane(type));
     EXPECT_EQ(data.lanes[0].type, LaneType::kNone) << type;
     EXPECT_EQ(data.lanes[0].type_statement, TypeStatement::kUnknown) << type;
   }

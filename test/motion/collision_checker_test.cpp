@@ -10,6 +10,7 @@
 #include "external_command/motion/reeds_shepp.h"
 #include "support/parking_worlds.h"
 #include "support/reference_clearance.h"
+#include "support/refusal.h"
 
 namespace external_command {
 namespace {
@@ -156,23 +157,19 @@ TEST(CollisionChecker, RefusesANegativeMargin) {
   EXPECT_NO_THROW(CollisionChecker(smallCar(), 0.1, Region()));
 }
 
-std::string refusalOf(const RegionLimits& limits) {
+std::string regionRefusal(const RegionLimits& limits) {
   Region::Parts parts;
   parts.non_drivable = clutter(1, 50, {0.0, 0.0});
   parts.limits = limits;
-  try {
-    const CollisionChecker checker(smallCar(), 0.1, Region(parts));
-  } catch (const InvalidRequest& error) {
-    return error.what();
-  }
-  return "";
+  return refusalOf([&] { const CollisionChecker checker(smallCar(), 0.1, Region(parts)); });
 }
 
 TEST(CollisionChecker, RefusesARegionBeyondItsLimitsAndNamesTheParameter) {
-  EXPECT_EQ(refusalOf({}), "");
-  EXPECT_NE(refusalOf({20, 1000000}).find("more than 20 edges (~free_space/max_edges)"), std::string::npos);
-  EXPECT_NE(refusalOf({1000, 1000}).find("more than 1000 in sum over the cells near them (~free_space/max_near_edges)"),
-            std::string::npos);
+  EXPECT_EQ(regionRefusal({}), "");
+  EXPECT_NE(regionRefusal({20, 1000000}).find("more than 20 edges (~free_space/max_edges)"), std::string::npos);
+  EXPECT_NE(
+      regionRefusal({1000, 1000}).find("more than 1000 in sum over the cells near them (~free_space/max_near_edges)"),
+      std::string::npos);
   EXPECT_NO_THROW(RegionLimits().validate());
   EXPECT_THROW((RegionLimits{0, 1000}.validate()), InvalidParameter);
   EXPECT_THROW((RegionLimits{1000, 0}.validate()), InvalidParameter);

@@ -13,6 +13,7 @@
 #include "external_command/RoutingResponse.h"
 #include "external_command/ZoneCover.h"
 #include "external_command/core/error.h"
+#include "support/refusal.h"
 
 namespace external_command {
 namespace {
@@ -33,13 +34,8 @@ MessageSize sizeOf(const Bytes& bytes) {
 }
 
 template <class Message>
-std::string refusalOf(const Bytes& bytes) {
-  try {
-    sizeOf<Message>(bytes);
-    return "";
-  } catch (const InvalidRequest& error) {
-    return error.what();
-  }
+std::string bytesRefusal(const Bytes& bytes) {
+  return refusalOf([&] { sizeOf<Message>(bytes); });
 }
 
 ZoneCoverRequest someRequest() {
@@ -58,7 +54,7 @@ std::vector<std::size_t> countsIn(const Bytes& bytes) {
   for (std::size_t i = 0; i + 4 <= bytes.size(); ++i) {
     Bytes changed = bytes;
     std::memset(&changed[i], 0xff, 4);
-    if (refusalOf<ZoneCoverRequest>(changed).find("is said to have 4294967295 ") != std::string::npos)
+    if (bytesRefusal<ZoneCoverRequest>(changed).find("is said to have 4294967295 ") != std::string::npos)
       places.push_back(i);
   }
   return places;
@@ -110,9 +106,9 @@ TEST(MessageSize, RefusesACountThatExceedsTheBytes) {
   const std::size_t at = 4 + 8 + 4 + 8 + 1 + 1;  // header, command_id, dry_run, is_start_pose_set
   const std::uint32_t count = 100000000;
   std::memcpy(&bytes[at], &count, sizeof(count));
-  EXPECT_NE(refusalOf<LaneFollowRequest>(bytes).find("command.way_point is said to have 100000000 elements"),
+  EXPECT_NE(bytesRefusal<LaneFollowRequest>(bytes).find("command.way_point is said to have 100000000 elements"),
             std::string::npos)
-      << refusalOf<LaneFollowRequest>(bytes);
+      << bytesRefusal<LaneFollowRequest>(bytes);
 }
 
 TEST(MessageSize, RefusesEveryCountThatLies) {
@@ -123,7 +119,7 @@ TEST(MessageSize, RefusesEveryCountThatLies) {
     for (const std::uint32_t count : {0x00ffffffu, 0x10000001u, 0x20000001u, 0x80000000u, 0xffffffffu}) {
       Bytes bytes = whole;
       std::memcpy(&bytes[place], &count, sizeof(count));
-      EXPECT_NE(refusalOf<ZoneCoverRequest>(bytes), "") << count << " at " << place;
+      EXPECT_NE(bytesRefusal<ZoneCoverRequest>(bytes), "") << count << " at " << place;
     }
   }
 }
@@ -131,12 +127,13 @@ TEST(MessageSize, RefusesEveryCountThatLies) {
 TEST(MessageSize, RefusesAMessageCutShortOrTooLong) {
   const Bytes whole = bytesOf(someRequest());
   for (std::size_t size = 0; size < whole.size(); ++size) {
-    EXPECT_NE(refusalOf<ZoneCoverRequest>(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size))), "")
+    EXPECT_NE(bytesRefusal<ZoneCoverRequest>(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size))),
+              "")
         << size << " bytes";
   }
   Bytes longer = whole;
   longer.push_back(0);
-  EXPECT_NE(refusalOf<ZoneCoverRequest>(longer).find("1 bytes behind"), std::string::npos);
+  EXPECT_NE(bytesRefusal<ZoneCoverRequest>(longer).find("1 bytes behind"), std::string::npos);
 }
 
 /// roscpp must be able to read whatever is not refused.
@@ -150,7 +147,7 @@ TEST(MessageSize, RefusesAllThatCannotBeRead) {
     for (std::uint32_t changes = 1 + (next() >> 8) % 3; changes > 0; --changes) {
       bytes[(next() >> 8) % bytes.size()] = static_cast<std::uint8_t>(next() >> 24);
     }
-    if (!refusalOf<ZoneCoverRequest>(bytes).empty()) continue;
+    if (!bytesRefusal<ZoneCoverRequest>(bytes).empty()) continue;
     ++taken;
     ZoneCoverRequest request;
     ros::serialization::IStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));

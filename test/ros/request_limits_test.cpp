@@ -6,6 +6,7 @@
 #include "external_command/ZoneCover.h"
 #include "external_command/core/error.h"
 #include "external_command/ros/caller_limits.h"
+#include "support/refusal.h"
 
 namespace external_command {
 namespace {
@@ -15,16 +16,6 @@ const char* const kDefinition = ros::message_traits::definition<ZoneCoverRequest
 MessageSize sizeOf(const ZoneCoverRequest& request) {
   const ros::SerializedMessage bytes = ros::serialization::serializeMessage(request);
   return sizeOfMessage<ZoneCoverRequest>(bytes.message_start, bytes.num_bytes - 4);
-}
-
-template <class Call>
-std::string refusalOf(const Call& call) {
-  try {
-    call();
-    return "";
-  } catch (const InvalidRequest& error) {
-    return error.what();
-  }
 }
 
 TEST(RequestLimits, TakeARequestOfTheirSize) {

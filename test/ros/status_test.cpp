@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "external_command/ros/checks.h"
+#include "support/refusal.h"
 
 namespace external_command {
 namespace {
@@ -54,15 +55,6 @@ TEST(Status, KeepsCodeAndTextOfAnError) {
 TEST(Status, MakesAnyOtherExceptionAnInternalError) {
   EXPECT_EQ(statusOfThrown([] { throw std::out_of_range("vector"); }).error_code, CommandStatus::INTERNAL_ERROR);
   EXPECT_EQ(statusOfThrown([] { throw 5; }).error_code, CommandStatus::INTERNAL_ERROR);
-}
-
-std::string refusalOf(const std::function<void()>& check) {
-  try {
-    check();
-  } catch (const InvalidRequest& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(Checks, AcceptWhatIsInRange) {

@@ -6,8 +6,6 @@
 namespace external_command {
 namespace {
 
-constexpr double kWidth = MapBuilder::kLaneWidth;
-
 ///   a1 ----> a2 ----> a3      100 m each; side by side all the way
 ///   b1 ----> b2 ----> b3
 class TwoLanes : public RoutingWorld {
@@ -15,7 +13,7 @@ class TwoLanes : public RoutingWorld {
   TwoLanes() {
     for (const char* i : {"1", "2", "3"}) {
       const double x = 100.0 * (*i - '1');
-      builder.lane(std::string("a") + i, {x, kWidth}, {x + 100, kWidth});
+      builder.lane(std::string("a") + i, {x, MapBuilder::kLaneWidth}, {x + 100, MapBuilder::kLaneWidth});
       builder.lane(std::string("b") + i, {x, 0}, {x + 100, 0});
       builder.beside({std::string("a") + i, std::string("b") + i});
     }
@@ -138,7 +136,8 @@ TEST_F(TwoLanes, DoesNotChangeInTooLittleRoomForASmallGain) {
   params.lane_change_price = 0.0;
   drawLine("a1", "b1", {{0, BoundaryType::kSolidWhite}, {91, BoundaryType::kDottedWhite}});
   drawLine("a2", "b2", {{0, BoundaryType::kSolidWhite}});
-  builder.lane("bridge", std::vector<Point2d>{{100, 0}, {112, 2}, {100, kWidth}}).follow({"b1", "bridge", "a2"});
+  builder.lane("bridge", std::vector<Point2d>{{100, 0}, {112, 2}, {100, MapBuilder::kLaneWidth}})
+      .follow({"b1", "bridge", "a2"});
   EXPECT_EQ(ids(drive({"b1", 0}, {"a2", 50})), "b1 bridge a2");
   params.tight_lane_change_price = 20.0;
   EXPECT_EQ(ids(drive({"b1", 0}, {"a2", 50})), "b1 a1 a2");
@@ -147,7 +146,8 @@ TEST_F(TwoLanes, DoesNotChangeInTooLittleRoomForASmallGain) {
 TEST_F(TwoLanes, ChangesOnlyWhereThatSavesMoreThanItsPrice) {
   //   The bridge leads from b1 to a2 as a change does, and is 24 m longer.
   drawLine("a2", "b2", {{0, BoundaryType::kSolidWhite}});
-  builder.lane("bridge", std::vector<Point2d>{{100, 0}, {112, 2}, {100, kWidth}}).follow({"b1", "bridge", "a2"});
+  builder.lane("bridge", std::vector<Point2d>{{100, 0}, {112, 2}, {100, MapBuilder::kLaneWidth}})
+      .follow({"b1", "bridge", "a2"});
   const Route around = drive({"b1", 0}, {"a2", 50});
   EXPECT_EQ(ids(around), "b1 bridge a2");
   EXPECT_NEAR(around.cost, around.distance, 1e-9);
@@ -199,7 +199,8 @@ TEST(LaneChange, RunsOverManyShortPieces) {
   MapBuilder builder;
   for (int i = 0; i < 15; ++i) {
     const std::string k = std::to_string(i);
-    builder.lane("a" + k, {4.0 * i, kWidth}, {4.0 * i + 4, kWidth}).lane("b" + k, {4.0 * i, 0}, {4.0 * i + 4, 0});
+    builder.lane("a" + k, {4.0 * i, MapBuilder::kLaneWidth}, {4.0 * i + 4, MapBuilder::kLaneWidth})
+        .lane("b" + k, {4.0 * i, 0}, {4.0 * i + 4, 0});
     builder.beside({"a" + k, "b" + k});
     if (i == 0) continue;
     const std::string before = std::to_string(i - 1);
@@ -225,7 +226,8 @@ TEST(LaneChange, RunsOverManyShortPieces) {
 class ThreeLanes : public RoutingWorld {
  protected:
   ThreeLanes() {
-    builder.lane("left", {0, 2 * kWidth}, {100, 2 * kWidth}).lane("mid", {0, kWidth}, {100, kWidth});
+    builder.lane("left", {0, 2 * MapBuilder::kLaneWidth}, {100, 2 * MapBuilder::kLaneWidth})
+        .lane("mid", {0, MapBuilder::kLaneWidth}, {100, MapBuilder::kLaneWidth});
     builder.lane("right", {0, 0}, {100, 0}).beside({"left", "mid", "right"});
   }
 };
@@ -248,7 +250,9 @@ TEST_F(ThreeLanes, NeedsRoomForEachOfTwoChanges) {
 ///   s1 --------> s2 --------->            neighbours of the long one
 TEST(LaneChange, KnowsWhichPartOfALongLaneLiesBesideAShortOne) {
   MapBuilder builder;
-  builder.lane("long", {0, kWidth}, {100, kWidth}).lane("s1", {0, 0}, {50, 0}).lane("s2", {50, 0}, {100, 0});
+  builder.lane("long", {0, MapBuilder::kLaneWidth}, {100, MapBuilder::kLaneWidth})
+      .lane("s1", {0, 0}, {50, 0})
+      .lane("s2", {50, 0}, {100, 0});
   builder.follow({"s1", "s2"}).beside({"long", "s1"}).beside({"long", "s2"});
   const auto map = builder.build();
   const Router router(map, {});
@@ -268,9 +272,11 @@ TEST(LaneChange, KnowsWhichPartOfALongLaneLiesBesideAShortOne) {
 ///   outer: an arc of 40 m radius; inner: one of 36.5 m beside it, both with 20 m straight ahead
 TEST(LaneChange, CountsLanesSideBySideAsTheOneThatIsLeftLast) {
   MapBuilder builder;
-  builder.arc("outer", {0, 0, 0}, 40.0, M_PI / 2).arc("inner", {0, kWidth, 0}, 40.0 - kWidth, M_PI / 2);
+  builder.arc("outer", {0, 0, 0}, 40.0, M_PI / 2)
+      .arc("inner", {0, MapBuilder::kLaneWidth, 0}, 40.0 - MapBuilder::kLaneWidth, M_PI / 2);
   builder.beside({"inner", "outer"});
-  builder.lane("outer2", {40, 40}, {40, 60}).lane("inner2", {40 - kWidth, 40}, {40 - kWidth, 60});
+  builder.lane("outer2", {40, 40}, {40, 60})
+      .lane("inner2", {40 - MapBuilder::kLaneWidth, 40}, {40 - MapBuilder::kLaneWidth, 60});
   builder.beside({"inner2", "outer2"}).follow({"outer", "outer2"}).follow({"inner", "inner2"});
   const auto map = builder.build();
   RouterParams params;
@@ -287,14 +293,14 @@ TEST(LaneChange, CountsLanesSideBySideAsTheOneThatIsLeftLast) {
 class BendOfTwoLanes : public RoutingWorld {
  protected:
   BendOfTwoLanes() {
-    std::vector<Point2d> outer = {{0, 0}}, inner = {{0, kWidth}};
+    std::vector<Point2d> outer = {{0, 0}}, inner = {{0, MapBuilder::kLaneWidth}};
     for (int i = 0; i <= 10; ++i) {
-      const Point2d outward = unitVector(-M_PI / 2.0 + 0.05 * M_PI * i), center(40.0, 9.0 + kWidth);
-      outer.push_back(center + (9.0 + kWidth) * outward);
+      const Point2d outward = unitVector(-M_PI / 2.0 + 0.05 * M_PI * i), center(40.0, 9.0 + MapBuilder::kLaneWidth);
+      outer.push_back(center + (9.0 + MapBuilder::kLaneWidth) * outward);
       inner.push_back(center + 9.0 * outward);
     }
-    outer.emplace_back(49.0 + kWidth, 49.0 + kWidth);
-    inner.emplace_back(49.0, 49.0 + kWidth);
+    outer.emplace_back(49.0 + MapBuilder::kLaneWidth, 49.0 + MapBuilder::kLaneWidth);
+    inner.emplace_back(49.0, 49.0 + MapBuilder::kLaneWidth);
     builder.lane("outer", outer).lane("inner", inner).beside({"inner", "outer"});
   }
 };
@@ -312,7 +318,10 @@ TEST_F(BendOfTwoLanes, AreNotChangedInTheBend) {
 ///   road ---------------->
 TEST(LaneChange, NeedsTheRoomOfWhereItIsMade) {
   MapBuilder builder;
-  builder.lane("ramp", std::vector<Point2d>{{0, 10 + kWidth}, {20, 10 + kWidth}, {60, kWidth}, {120, kWidth}});
+  builder.lane("ramp", std::vector<Point2d>{{0, 10 + MapBuilder::kLaneWidth},
+                                            {20, 10 + MapBuilder::kLaneWidth},
+                                            {60, MapBuilder::kLaneWidth},
+                                            {120, MapBuilder::kLaneWidth}});
   builder.lane("road", {0, 0}, {120, 0}).beside({"ramp", "road"});
   const auto map = builder.build();
   const Router router(map, {});

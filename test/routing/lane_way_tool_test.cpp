@@ -8,15 +8,14 @@
 namespace external_command {
 namespace {
 
-constexpr double kWidth = MapBuilder::kLaneWidth;
-
 ///   path  --------> a lane for bicycles, 3.5 m to the left of north
 ///   north --------> 100 m
 ///   south <--------
 class TwoWayRoad : public testing::Test {
  protected:
   TwoWayRoad() {
-    builder.lane("path", {0, 2 * kWidth}, {100, 2 * kWidth}).lane("north", {0, kWidth}, {100, kWidth});
+    builder.lane("path", {0, 2 * MapBuilder::kLaneWidth}, {100, 2 * MapBuilder::kLaneWidth})
+        .lane("north", {0, MapBuilder::kLaneWidth}, {100, MapBuilder::kLaneWidth});
     builder.lane("south", {100, 0}, {0, 0});
     builder["path"].type = LaneType::kBiking;
   }
@@ -48,7 +47,8 @@ TEST_F(TwoWayRoad, SnapsAPoseToTheNearestLaneInItsDirection) {
 
 TEST_F(TwoWayRoad, SnapsAPoseWithoutHeadingToTheNearestLaneAtAll) {
   EXPECT_EQ(ids(tool().fromPose({30, 1.0}, std::nullopt, "end_pose")), "south");
-  EXPECT_EQ(ids(tool().fromPose({30, kWidth + 8.0}, std::nullopt, "end_pose")), "north") << "bicycles are not for us";
+  EXPECT_EQ(ids(tool().fromPose({30, MapBuilder::kLaneWidth + 8.0}, std::nullopt, "end_pose")), "north")
+      << "bicycles are not for us";
 }
 
 TEST_F(TwoWayRoad, RefusesAPoseWithoutHeadingFarFromEveryLane) {
@@ -59,7 +59,7 @@ TEST_F(TwoWayRoad, RefusesAPoseWithoutHeadingFarFromEveryLane) {
 }
 
 TEST_F(TwoWayRoad, TakesEveryLaneThatIsHardlyFurtherOffAtThePriceOfBeingOff) {
-  const double middle = kWidth / 2.0;
+  const double middle = MapBuilder::kLaneWidth / 2.0;
   EXPECT_EQ(ids(tool().fromPose({30, middle + 0.4}, std::nullopt, "end_pose")), "north south");
   EXPECT_EQ(ids(tool().fromPose({30, middle - 0.4}, std::nullopt, "end_pose")), "south north");
   EXPECT_EQ(ids(tool().fromPose({30, middle + 0.6}, std::nullopt, "end_pose")), "north");
@@ -70,16 +70,17 @@ TEST_F(TwoWayRoad, TakesEveryLaneThatIsHardlyFurtherOffAtThePriceOfBeingOff) {
 }
 
 TEST_F(TwoWayRoad, RefusesAPoseTooFarFromEveryLane) {
-  EXPECT_NO_THROW(tool().fromPose({30, kWidth + 2.9}, 0.0, "end_pose"));
+  EXPECT_NO_THROW(tool().fromPose({30, MapBuilder::kLaneWidth + 2.9}, 0.0, "end_pose"));
   EXPECT_THAT_REFUSED(
-      tool().fromPose({30, kWidth + 3.1}, 0.0, "end_pose"), OffMap,
+      tool().fromPose({30, MapBuilder::kLaneWidth + 3.1}, 0.0, "end_pose"), OffMap,
       "end_pose (30.00, 6.60, 0.000) is 3.10 m from the nearest lane north, whose heading differs by 0.00 "
       "rad; the limits are 3.00 m (~snap_distance) and 1.00 rad (~snap_heading)");
 }
 
 TEST_F(TwoWayRoad, RefusesAPoseAcrossEveryLane) {
-  EXPECT_NO_THROW(tool().fromPose({30, kWidth}, 0.99, "end_pose"));
-  EXPECT_THAT_REFUSED(tool().fromPose({30, kWidth}, 1.01, "way_point[0]"), OffMap, "differs by 1.01 rad");
+  EXPECT_NO_THROW(tool().fromPose({30, MapBuilder::kLaneWidth}, 0.99, "end_pose"));
+  EXPECT_THAT_REFUSED(tool().fromPose({30, MapBuilder::kLaneWidth}, 1.01, "way_point[0]"), OffMap,
+                      "differs by 1.01 rad");
 }
 
 TEST_F(TwoWayRoad, RefusesAPoseThatIsNotFinite) {
@@ -144,25 +145,27 @@ TEST_F(TwoWayRoad, RefusesAVehicleFarFromTheLanes) {
 }
 
 TEST_F(TwoWayRoad, DoesNotStartAVehicleOnALaneThatCrossesItsOwn) {
-  builder.lane("crossing", {20, kWidth - 10.0}, {40, kWidth + 10.0});  // at 45 degrees, through (30, kWidth)
-  EXPECT_EQ(ids(tool().fromVehicle({30, kWidth + 0.1, 0.1})), "north");
-  EXPECT_EQ(ids(tool().fromVehicle({30, kWidth + 0.1, 0.7})), "crossing");
-  EXPECT_EQ(tool().fromVehicle({30, kWidth, 0.39}).size(), 2u) << "in between";
+  builder.lane("crossing", {20, MapBuilder::kLaneWidth - 10.0},
+               {40, MapBuilder::kLaneWidth + 10.0});  // at 45 degrees, through (30, MapBuilder::kLaneWidth)
+  EXPECT_EQ(ids(tool().fromVehicle({30, MapBuilder::kLaneWidth + 0.1, 0.1})), "north");
+  EXPECT_EQ(ids(tool().fromVehicle({30, MapBuilder::kLaneWidth + 0.1, 0.7})), "crossing");
+  EXPECT_EQ(tool().fromVehicle({30, MapBuilder::kLaneWidth, 0.39}).size(), 2u) << "in between";
 }
 
 ///   a second deck 6 m above: its lanes lie 0.2 m to the left of those below
 TEST_F(TwoWayRoad, StartsAVehicleOnTheDeckOfItsHeight) {
-  builder.lane("upper", {0, kWidth + 0.2}, {100, kWidth + 0.2});
+  builder.lane("upper", {0, MapBuilder::kLaneWidth + 0.2}, {100, MapBuilder::kLaneWidth + 0.2});
   const auto setHeight = [this](const char* lane, float z) {
     builder[lane].heights.assign(builder[lane].center.size(), z);
   };
   for (const char* lane : {"north", "south", "path"}) setHeight(lane, 0.0F);
   setHeight("upper", 6.0F);
-  const Pose2d vehicle{30, kWidth + 0.1, 0.0};
+  const Pose2d vehicle{30, MapBuilder::kLaneWidth + 0.1, 0.0};
   EXPECT_EQ(ids(tool().fromVehicle(vehicle, 6.4)), "upper");
   EXPECT_EQ(ids(tool().fromVehicle(vehicle, 0.3)), "north");
   EXPECT_EQ(tool().fromVehicle(vehicle).size(), 2u) << "no height is known";
-  EXPECT_EQ(ids(tool().fromVehicle({30, kWidth - 0.8, 0.0}, 6.4)), "upper") << "the other deck is nearer by 20 cm";
+  EXPECT_EQ(ids(tool().fromVehicle({30, MapBuilder::kLaneWidth - 0.8, 0.0}, 6.4)), "upper")
+      << "the other deck is nearer by 20 cm";
   for (const char* lane : {"north", "south", "path"}) setHeight(lane, 30.0F);
   setHeight("upper", 36.0F);
   EXPECT_EQ(ids(tool().fromVehicle(vehicle, 6.0)), "north") << "the localization counts from elsewhere";
@@ -174,7 +177,7 @@ TEST_F(TwoWayRoad, StartsAVehicleOnTheDeckOfItsHeight) {
 class TwoDecks : public TwoWayRoad {
  protected:
   TwoDecks() {
-    builder.lane("upper", {0, kWidth + 5.0}, {100, kWidth + 5.0});
+    builder.lane("upper", {0, MapBuilder::kLaneWidth + 5.0}, {100, MapBuilder::kLaneWidth + 5.0});
     for (const char* lane : {"north", "south", "path"}) setHeight(lane, 1.0F);
     setHeight("upper", 7.0F);
   }
@@ -183,18 +186,18 @@ class TwoDecks : public TwoWayRoad {
 };
 
 TEST_F(TwoDecks, PutAPoseOnTheDeckOfItsHeight) {
-  const Point2d between{30, kWidth + 1.5};
+  const Point2d between{30, MapBuilder::kLaneWidth + 1.5};
   EXPECT_EQ(ids(tool().fromPose(between, {}, "end_pose")), "north");
   EXPECT_EQ(ids(tool().fromPose(between, {}, "end_pose", {1.5, ""})), "north");
   EXPECT_EQ(ids(tool().fromPose(between, {}, "end_pose", {6.5, ""})), "upper");
-  EXPECT_EQ(ids(tool().fromPose({30, kWidth + 2.5}, 0.0, "end_pose", {6.5, ""})), "upper");
+  EXPECT_EQ(ids(tool().fromPose({30, MapBuilder::kLaneWidth + 2.5}, 0.0, "end_pose", {6.5, ""})), "upper");
   EXPECT_THAT_REFUSED(tool().fromPose(between, 0.0, "end_pose", {6.5, ""}), OffMap,
                       "from the nearest lane north, whose heading differs by 0.00 rad and height differs by 5.50 m");
   EXPECT_EQ(ids(tool().fromPose(between, 0.0, "end_pose", {60.0, ""})), "north") << "counted from elsewhere";
 }
 
 TEST_F(TwoDecks, HaveAVehicleOffTheLanesOfItsDeckStartOnThatDeck) {
-  const Pose2d vehicle{30, kWidth + 0.5, 0.0};
+  const Pose2d vehicle{30, MapBuilder::kLaneWidth + 0.5, 0.0};
   EXPECT_FALSE(tool().isOffLane(vehicle, 1.2));
   EXPECT_TRUE(tool().isOffLane(vehicle, 7.2));
   EXPECT_EQ(ids(tool().fromVehicle(vehicle, 1.2)), "north");

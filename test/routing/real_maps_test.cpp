@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kRequests = 200;
 constexpr double kAmpleRoom = 40.0;  // [m] for a lane change
-constexpr unsigned kSeed = 20240611;
+constexpr unsigned kPlaceSeed = 20240611;
 
 class RealMapRoutes : public testing::TestWithParam<const char*> {
  protected:
@@ -88,7 +88,7 @@ class RealMapRoutes : public testing::TestWithParam<const char*> {
 
   std::shared_ptr<const HdMap> map_;
   std::vector<LaneIndex> lanes_;
-  std::mt19937 random_{kSeed};
+  std::mt19937 random_{kPlaceSeed};
 };
 
 TEST_P(RealMapRoutes, CostWhatAPlainDijkstraHasThemCost) {

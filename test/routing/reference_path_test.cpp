@@ -13,8 +13,6 @@
 namespace external_command {
 namespace {
 
-constexpr double kWidth = MapBuilder::kLaneWidth;
-
 class ReferencePathWorld : public RoutingWorld {
  protected:
   VehicleParams vehicle;
@@ -170,7 +168,8 @@ TEST_F(Bend, BeginsAndEndsInTheLanesDirection) {
 class TwoLaneRoad : public ReferencePathWorld {
  protected:
   TwoLaneRoad() {
-    builder.lane("l1", {0, kWidth}, {60, kWidth}).lane("l2", {60, kWidth}, {120, kWidth});
+    builder.lane("l1", {0, MapBuilder::kLaneWidth}, {60, MapBuilder::kLaneWidth})
+        .lane("l2", {60, MapBuilder::kLaneWidth}, {120, MapBuilder::kLaneWidth});
     builder.lane("r1", {0, 0}, {60, 0}).lane("r2", {60, 0}, {120, 0});
     builder.follow({"l1", "l2"}).follow({"r1", "r2"}).beside({"l1", "r1"}).beside({"l2", "r2"});
   }
@@ -180,7 +179,7 @@ class TwoLaneRoad : public ReferencePathWorld {
     double begin = 0.0, end = 0.0;
     for (const ReferencePoint& point : path) {
       if (std::abs(point.y) < 0.02) begin = point.s;
-      if (std::abs(point.y) < kWidth - 0.02) end = point.s;
+      if (std::abs(point.y) < MapBuilder::kLaneWidth - 0.02) end = point.s;
     }
     return {begin, end};
   }
@@ -191,14 +190,14 @@ TEST_F(TwoLaneRoad, ChangesLanesSmoothlyInTheLengthWished) {
   const auto [begin, end] = across(change);
   EXPECT_LT(begin, 5.0) << "begins at once";
   EXPECT_NEAR(end, 30.0, 3.0);
-  EXPECT_LT(largestKappa(change), 5.8 * kWidth / (30.0 * 30.0));
+  EXPECT_LT(largestKappa(change), 5.8 * MapBuilder::kLaneWidth / (30.0 * 30.0));
 }
 
 TEST_F(TwoLaneRoad, ChangesLanesInLessWhereThereIsLessRoom) {
   const Path change = path({"r1", 50}, {"l2", 5});
   EXPECT_NEAR(across(change).second, 15.0, 2.0);
   EXPECT_NEAR(change.back().heading, 0.0, 0.02);
-  EXPECT_LT(largestKappa(change), 5.8 * kWidth / (15.0 * 15.0));
+  EXPECT_LT(largestKappa(change), 5.8 * MapBuilder::kLaneWidth / (15.0 * 15.0));
 }
 
 TEST_F(TwoLaneRoad, CanBeSteeredWhereAChangeHasNoMoreRoomThanTwoArcsNeed) {
@@ -216,7 +215,7 @@ TEST_F(TwoLaneRoad, GoesThereAndBackAroundABlock) {
   EXPECT_TRUE(isContinuous(detour, 0.55));
   for (const ReferencePoint& point : detour) {
     if (point.x > 51.0 && point.x < 69.0) {
-      EXPECT_NEAR(point.y, kWidth, 0.02);
+      EXPECT_NEAR(point.y, MapBuilder::kLaneWidth, 0.02);
     }
   }
 }
@@ -250,14 +249,17 @@ TEST_F(CoarseJunction, IsDrivenRoundWithinTheLanes) {
   for (const ReferencePoint& point : found.path) {
     const Point2d position = point.pose().position();
     const double beside = std::min(std::abs(position.y()), std::abs(position.x() - 60.0));
-    EXPECT_LT(beside, 1.5 * (kWidth / 2.0 - vehicle.width / 2.0)) << at(position) << ", farther only across the corner";
+    EXPECT_LT(beside, 1.5 * (MapBuilder::kLaneWidth / 2.0 - vehicle.width / 2.0))
+        << at(position) << ", farther only across the corner";
   }
 }
 
 TEST_F(CoarseJunction, IsDrivenByALongVehicleOnTheNeighbourLaneWhereItMust) {
   builder.lane("a", {{0, 0}, {60, 0}}).arc("turn", {60, 0, 0}, 9.0, -M_PI / 2).lane("b", {{69, -9}, {69, -69}});
-  builder.lane("a2", {{0, kWidth}, {60, kWidth}}).beside({"a2", "a"});
-  builder.lane("b2", {{69 + kWidth, -9}, {69 + kWidth, -69}}).beside({"b2", "b"}).follow({"a", "turn", "b"});
+  builder.lane("a2", {{0, MapBuilder::kLaneWidth}, {60, MapBuilder::kLaneWidth}}).beside({"a2", "a"});
+  builder.lane("b2", {{69 + MapBuilder::kLaneWidth, -9}, {69 + MapBuilder::kLaneWidth, -69}})
+      .beside({"b2", "b"})
+      .follow({"a", "turn", "b"});
   vehicle.wheelbase = 6.0;
   vehicle.front_overhang = 2.5;
   vehicle.min_turning_radius = 8.0;
@@ -266,8 +268,8 @@ TEST_F(CoarseJunction, IsDrivenByALongVehicleOnTheNeighbourLaneWhereItMust) {
   expectDrivable(found);
   double left = 0.0;
   for (const ReferencePoint& point : found.path) left = std::max(left, point.x < 60.0 ? point.y : point.x - 69.0);
-  EXPECT_GT(left, kWidth / 2.0 - vehicle.width / 2.0) << "it swings out";
-  EXPECT_LT(left, 1.5 * kWidth - vehicle.width / 2.0) << "no farther than the neighbour lane";
+  EXPECT_GT(left, MapBuilder::kLaneWidth / 2.0 - vehicle.width / 2.0) << "it swings out";
+  EXPECT_LT(left, 1.5 * MapBuilder::kLaneWidth - vehicle.width / 2.0) << "no farther than the neighbour lane";
 }
 
 TEST_F(CoarseJunction, SaysWhereACornerOfALongVehicleLeavesTheLanes) {

@@ -18,7 +18,7 @@ namespace external_command {
 namespace {
 
 constexpr int kRoutes = 60;
-constexpr unsigned kSeed = 20240611;
+constexpr unsigned kPathSeed = 20240611;
 
 double difference(const ReferencePoint& a, const ReferencePoint& b) {
   const double place = std::max(std::abs(a.x - b.x), std::abs(a.y - b.y));
@@ -79,7 +79,7 @@ class PathsOverAMap : public testing::TestWithParam<const char*> {
   std::shared_ptr<const HdMap> map_;
   std::vector<LaneIndex> lanes_;
   std::vector<Route> routes_;
-  std::mt19937 random_{kSeed};
+  std::mt19937 random_{kPathSeed};
 };
 
 TEST_P(PathsOverAMap, AreTheSameFromMemory) {

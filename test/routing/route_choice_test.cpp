@@ -12,8 +12,6 @@
 namespace external_command {
 namespace {
 
-constexpr double kWidth = MapBuilder::kLaneWidth;
-
 /// A place to go to, with a heading or without.
 struct Place {
   double x, y;
@@ -178,8 +176,8 @@ class TwoWayStreet : public testing::Test {
  protected:
   static std::shared_ptr<const HdMap> build() {
     MapBuilder builder;
-    builder.lane("s_east", {0, 0}, {400, 0}).lane("n_west", {400, kWidth}, {0, kWidth});
-    builder.lane("turn", std::vector<Point2d>{{400, 0}, {410, 1}, {410, 2.5}, {400, kWidth}});
+    builder.lane("s_east", {0, 0}, {400, 0}).lane("n_west", {400, MapBuilder::kLaneWidth}, {0, MapBuilder::kLaneWidth});
+    builder.lane("turn", std::vector<Point2d>{{400, 0}, {410, 1}, {410, 2.5}, {400, MapBuilder::kLaneWidth}});
     builder.follow({"s_east", "turn", "n_west"});
     return builder.build();
   }
@@ -193,8 +191,9 @@ TEST_F(TwoWayStreet, ReachesAGoalBetweenItsLanesOnTheSideItComesBy) {
 }
 
 TEST_F(TwoWayStreet, ReachesAGoalOnTheFarLaneThere) {
-  EXPECT_GT(trip.drive({10, 0, 0}, {100, kWidth}).distance, 600.0);
-  EXPECT_GT(trip.drive({10, 0, 0}, {100, kWidth + 5.0}).distance, 600.0) << "before a house on that side";
+  EXPECT_GT(trip.drive({10, 0, 0}, {100, MapBuilder::kLaneWidth}).distance, 600.0);
+  EXPECT_GT(trip.drive({10, 0, 0}, {100, MapBuilder::kLaneWidth + 5.0}).distance, 600.0)
+      << "before a house on that side";
 }
 
 ///   left  ---------------->
@@ -203,7 +202,9 @@ class ParallelLanes : public testing::Test {
  protected:
   static std::shared_ptr<const HdMap> build() {
     MapBuilder builder;
-    builder.lane("left", {0, kWidth}, {400, kWidth}).lane("right", {0, 0}, {400, 0}).beside({"left", "right"});
+    builder.lane("left", {0, MapBuilder::kLaneWidth}, {400, MapBuilder::kLaneWidth})
+        .lane("right", {0, 0}, {400, 0})
+        .beside({"left", "right"});
     return builder.build();
   }
   const Trip trip{build()};
@@ -212,17 +213,18 @@ class ParallelLanes : public testing::Test {
 TEST_F(ParallelLanes, ArePassedByAWayPointBetweenThemWithoutAChange) {
   for (const double y : {1.5, 1.75, 2.0}) {
     EXPECT_EQ(trip.ids(trip.drive({10, 0, 0}, {{200, y}}, {390, 0})), "right");
-    EXPECT_EQ(trip.ids(trip.drive({10, kWidth, 0}, {{200, y, 0.0}}, {390, kWidth})), "left");
+    EXPECT_EQ(trip.ids(trip.drive({10, MapBuilder::kLaneWidth, 0}, {{200, y, 0.0}}, {390, MapBuilder::kLaneWidth})),
+              "left");
   }
 }
 
 TEST_F(ParallelLanes, AreChangedForAWayPointThatIsClearlyOnTheOther) {
-  EXPECT_EQ(trip.ids(trip.drive({10, 0, 0}, {{200, kWidth}}, {390, 0})), "right left right");
+  EXPECT_EQ(trip.ids(trip.drive({10, 0, 0}, {{200, MapBuilder::kLaneWidth}}, {390, 0})), "right left right");
   EXPECT_EQ(trip.ids(trip.drive({10, 0, 0}, {390, 2.3})), "right left");
 }
 
 TEST_F(ParallelLanes, AreStartedOnEitherFromTheLineBetween) {
-  EXPECT_EQ(trip.ids(trip.drive({10, 1.72, 0}, {390, kWidth})), "left");
+  EXPECT_EQ(trip.ids(trip.drive({10, 1.72, 0}, {390, MapBuilder::kLaneWidth})), "left");
   EXPECT_EQ(trip.ids(trip.drive({10, 1.78, 0}, {390, 0})), "right");
 }
 

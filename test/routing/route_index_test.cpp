@@ -15,7 +15,7 @@
 namespace external_command {
 namespace {
 
-constexpr unsigned kSeed = 20261129;
+constexpr unsigned kIndexSeed = 20261129;
 constexpr double kSameCost = 0.001;  // [m]
 
 /// Random places and queries of a map.
@@ -57,14 +57,14 @@ class Queries {
  private:
   const HdMap& map_;
   std::vector<LaneIndex> lanes_;
-  std::mt19937 random_{kSeed};
+  std::mt19937 random_{kIndexSeed};
 };
 
 /// A city whose lanes abreast differ in length and do not always begin together: of some streets the outer lane is cut
 /// in two, and lanes wind.
 std::shared_ptr<const HdMap> unevenCity(int crossings_per_side) {
   MapData data = gridCity(crossings_per_side);
-  std::mt19937 random(kSeed);
+  std::mt19937 random(kIndexSeed);
   const auto share = [&random] { return std::uniform_real_distribution<double>(0.1, 0.9)(random); };
   const std::size_t count = data.lanes.size();
   for (std::size_t i = 0; i < count; ++i) {
@@ -102,7 +102,7 @@ int expectSameCosts(const HdMap& map, const RouterParams& params, ChangeRule rul
     const SearchResult plain = searchRoute(graph, nullptr, params, rule, query, blocked, CancelToken());
     const SearchResult fast = searchRoute(graph, &index, params, rule, query, blocked, CancelToken());
     found += plain.labels.empty() ? 0 : 1;
-    EXPECT_NEAR(costOf(fast), costOf(plain), kSameCost) << "query " << i << " with seed " << kSeed;
+    EXPECT_NEAR(costOf(fast), costOf(plain), kSameCost) << "query " << i << " with seed " << kIndexSeed;
     EXPECT_EQ(fast.failed_leg, plain.failed_leg);
     EXPECT_EQ(fast.reached_lanes, plain.reached_lanes) << "without a route all that can be reached is";
   }

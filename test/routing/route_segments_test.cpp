@@ -6,8 +6,6 @@
 namespace external_command {
 namespace {
 
-constexpr double kWidth = MapBuilder::kLaneWidth;
-
 ///   left1 ----> left2 ----> left3
 ///   mid1 -----> mid2 -----> mid3 ----> out     three sections of 100 m, then one lane goes on
 ///   right1 ---> right2 ---> right3
@@ -17,13 +15,15 @@ class Motorway : public RoutingWorld {
     for (const char* i : {"1", "2", "3"}) {
       const double x = 100.0 * (*i - '1');
       const std::string left = std::string("left") + i, mid = std::string("mid") + i, right = std::string("right") + i;
-      builder.lane(left, {x, 2 * kWidth}, {x + 100, 2 * kWidth}).lane(mid, {x, kWidth}, {x + 100, kWidth});
+      builder.lane(left, {x, 2 * MapBuilder::kLaneWidth}, {x + 100, 2 * MapBuilder::kLaneWidth})
+          .lane(mid, {x, MapBuilder::kLaneWidth}, {x + 100, MapBuilder::kLaneWidth});
       builder.lane(right, {x, 0}, {x + 100, 0})
           .beside({left, mid, right})
           .road(std::string("road") + i, {left, mid, right});
     }
     builder.follow({"left1", "left2", "left3"}).follow({"right1", "right2", "right3"});
-    builder.lane("out", {300, kWidth}, {400, kWidth}).follow({"mid1", "mid2", "mid3", "out"});
+    builder.lane("out", {300, MapBuilder::kLaneWidth}, {400, MapBuilder::kLaneWidth})
+        .follow({"mid1", "mid2", "mid3", "out"});
   }
 
   std::string segments(const Route& route) { return drawn(toSegments(map(), route), map()); }

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr unsigned kSeed = 20261130;
+constexpr unsigned kRoutePairSeed = 20261130;
 const char* const kDemoMap = EC_SOURCE_DIR "/maps/demo_town/base_map.bin";
 
 std::string bytesOf(const std::string& file) {
@@ -44,7 +44,7 @@ std::shared_ptr<const Router> routerOf(const RouterSource& source) {
 
 /// The same routes, at the same cost, between random places.
 testing::AssertionResult sameRoutes(const Router& a, const Router& b, int queries) {
-  std::mt19937 random(kSeed);
+  std::mt19937 random(kRoutePairSeed);
   std::vector<LaneIndex> lanes;
   for (LaneIndex i = 0; i < a.map().lanes().size(); ++i) {
     if (a.map().lane(i).isDrivable()) lanes.push_back(i);
@@ -202,13 +202,13 @@ TEST_F(RouterCacheTest, IsNotUsedByAnotherVersion) {
 TEST_F(RouterCacheTest, IsNotUsedWithAnyBitFlipped) {
   keep();
   const std::string bytes = bytesOf(cache().path());
-  std::mt19937 random(kSeed);
+  std::mt19937 random(kRoutePairSeed);
   for (int i = 0; i < 300; ++i) {
     // A third of them near the end, where what is said of the rest is.
     const std::size_t place = random() % (i % 3 == 0 ? 3000 : bytes.size());
     const std::size_t at = bytes.size() - 1 - place;
     replaceByte(at, static_cast<char>(bytes[at] ^ 1 << random() % 8));
-    ASSERT_TRUE(isRefused("damaged", true)) << place << " bytes before the end, with seed " << kSeed;
+    ASSERT_TRUE(isRefused("damaged", true)) << place << " bytes before the end, with seed " << kRoutePairSeed;
     replaceByte(at, bytes[at]);
   }
   EXPECT_TRUE(cache().read().router) << "all bits are as they were";
@@ -220,7 +220,7 @@ TEST_F(RouterCacheTest, IsNotUsedWithAnyBitFlipped) {
 TEST_F(RouterCacheTest, IsNotUsedWithBytesTooFewOrTooMany) {
   keep();
   const std::string bytes = bytesOf(cache().path());
-  std::mt19937 random(kSeed);
+  std::mt19937 random(kRoutePairSeed);
   for (int i = 0; i < 200; ++i) {
     writeBytes(cache().path(), bytes.substr(0, i < 50 ? static_cast<std::size_t>(i) : random() % bytes.size()));
     ASSERT_TRUE(isRefused("damaged", true));

@@ -8,7 +8,7 @@ namespace external_command {
 
 namespace {
 
-constexpr double kSpacing = 5.0;  // [m]
+constexpr double kPointSpacing = 5.0;  // [m]
 
 double lengthOf(const std::vector<Point2d>& points) {
   double length = 0.0;
@@ -29,7 +29,7 @@ std::vector<Point2d> moved(const std::vector<Point2d>& points, double offset) {
 }  // namespace
 
 MapBuilder& MapBuilder::lane(const std::string& id, const Point2d& from, const Point2d& to) {
-  const int steps = std::max(1, static_cast<int>(std::ceil((to - from).norm() / kSpacing)));
+  const int steps = std::max(1, static_cast<int>(std::ceil((to - from).norm() / kPointSpacing)));
   std::vector<Point2d> points;
   for (int i = 0; i <= steps; ++i) points.push_back(from + (to - from) * i / steps);
   return lane(id, points);

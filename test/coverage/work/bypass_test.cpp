@@ -38,8 +38,6 @@ class Line {
   double across_;
 };
 
-Polygon post(double x, double y) { return box(x - 0.3, y - 0.3, x + 0.3, y + 0.3); }
-
 TEST(BypassSearch, PassesAPostOnTheNearerSide) {
   const Line line({post(20.0, 10.2)}, 10.0);
   const std::optional<Bypass> bypass = line.bypass();

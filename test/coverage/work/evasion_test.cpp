@@ -13,8 +13,6 @@ namespace {
 constexpr double kStep = 0.25;
 const Pose2d kBegin{2.0, 10.0, 0.0};  // of a line of 36 m through the middle of a hall
 
-Polygon post(double x, double y) { return box(x - 0.3, y - 0.3, x + 0.3, y + 0.3); }
-
 Field hallWith(const std::vector<Polygon>& posts) {
   return Field(sweeper(), params(), {box(0, 0, 40, 20), posts}, std::nullopt, {});
 }

@@ -18,7 +18,7 @@ VehicleSignal signals(std::uint8_t turn, std::uint8_t low_beam = VehicleSignal::
   return made;
 }
 
-AdmittedCommand command(std::int64_t id) { return {static_cast<CommandSerial>(id), id, 0}; }
+AdmittedCommand signalled(std::int64_t id) { return {static_cast<CommandSerial>(id), id, 0}; }
 
 class Signals : public testing::Test {
  protected:
@@ -28,7 +28,7 @@ class Signals : public testing::Test {
 };
 
 TEST_F(Signals, AreFinishedWhenTheChassisReportsThemAll) {
-  pending_.add(command(1), signals(VehicleSignal::TURN_LEFT, VehicleSignal::ON), 0.0);
+  pending_.add(signalled(1), signals(VehicleSignal::TURN_LEFT, VehicleSignal::ON), 0.0);
   EXPECT_TRUE(pending_.onChassis(signals(VehicleSignal::TURN_LEFT, VehicleSignal::OFF)).empty());
   const auto changes = pending_.onChassis(signals(VehicleSignal::TURN_LEFT, VehicleSignal::ON));
   ASSERT_EQ(changes.size(), 1u);
@@ -36,12 +36,12 @@ TEST_F(Signals, AreFinishedWhenTheChassisReportsThemAll) {
 }
 
 TEST_F(Signals, DoNotLookAtWhatIsKept) {
-  pending_.add(command(1), signals(VehicleSignal::TURN_KEEP, VehicleSignal::OFF), 0.0);
+  pending_.add(signalled(1), signals(VehicleSignal::TURN_KEEP, VehicleSignal::OFF), 0.0);
   EXPECT_EQ(pending_.onChassis(signals(VehicleSignal::TURN_HAZARD, VehicleSignal::OFF)).size(), 1u);
 }
 
 TEST_F(Signals, BecomeUnknownWhenTheChassisDoesNotFollow) {
-  pending_.add(command(1), signals(VehicleSignal::TURN_LEFT), 10.0);
+  pending_.add(signalled(1), signals(VehicleSignal::TURN_LEFT), 10.0);
   pending_.onChassis(signals(VehicleSignal::TURN_NONE));
   EXPECT_TRUE(pending_.onTime(14.9).empty());
   const auto changes = pending_.onTime(15.0);
@@ -51,10 +51,10 @@ TEST_F(Signals, BecomeUnknownWhenTheChassisDoesNotFollow) {
 }
 
 TEST_F(Signals, AreSupersededByACommandThatContradicts) {
-  pending_.add(command(1), signals(VehicleSignal::TURN_LEFT), 0.0);
-  EXPECT_TRUE(pending_.add(command(2), signals(VehicleSignal::TURN_LEFT, VehicleSignal::ON), 0.0).empty());
-  EXPECT_TRUE(pending_.add(command(3), signals(VehicleSignal::TURN_KEEP, VehicleSignal::ON), 0.0).empty());
-  const auto changes = pending_.add(command(4), signals(VehicleSignal::TURN_RIGHT), 0.0);
+  pending_.add(signalled(1), signals(VehicleSignal::TURN_LEFT), 0.0);
+  EXPECT_TRUE(pending_.add(signalled(2), signals(VehicleSignal::TURN_LEFT, VehicleSignal::ON), 0.0).empty());
+  EXPECT_TRUE(pending_.add(signalled(3), signals(VehicleSignal::TURN_KEEP, VehicleSignal::ON), 0.0).empty());
+  const auto changes = pending_.add(signalled(4), signals(VehicleSignal::TURN_RIGHT), 0.0);
   ASSERT_EQ(changes.size(), 2u);
   EXPECT_EQ(changes[0].serial, 1u);
   EXPECT_EQ(changes[1].serial, 2u);
@@ -78,7 +78,7 @@ TEST_F(Signals, TellWhetherThereIsAnythingToWaitFor) {
 }
 
 TEST_F(Signals, AreNotWaitedForAnyMoreThatWereEndedOtherwise) {
-  pending_.add(command(1), signals(VehicleSignal::TURN_LEFT), 0.0);
+  pending_.add(signalled(1), signals(VehicleSignal::TURN_LEFT), 0.0);
   pending_.keepWhere([](CommandSerial /*serial*/) { return false; });
   EXPECT_TRUE(pending_.onTime(1000.0).empty());
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "external_command/core/error.h"
+#include "support/refusal.h"
 
 namespace external_command {
 namespace {
@@ -37,13 +38,8 @@ PathFollowCommand commandOf(const nav_msgs::Path& path) {
   });
 }
 
-std::string refusalOf(const nav_msgs::Path& path) {
-  try {
-    commandOf(path);
-  } catch (const InvalidRequest& error) {
-    return error.what();
-  }
-  return "";
+std::string messageRefusal(const nav_msgs::Path& path) {
+  return refusalOf([&] { commandOf(path); });
 }
 
 TEST(PathMessage, KeepsHeaderAndPositions) {
@@ -132,12 +128,14 @@ TEST(PathMessage, TakesAFrameWithASlashForTheSame) {
 TEST(PathMessage, RefusesWhatHasNoDirectionAndFramesThatAreNotKnown) {
   nav_msgs::Path path = pathOf({{0.0, 0.0}, {5.0, 0.0}, {9.0, 0.0}});
   turn(&path, 0, 0.3);
-  EXPECT_NE(refusalOf(path).find("poses[1].pose.orientation is zero"), std::string::npos) << refusalOf(path);
+  EXPECT_NE(messageRefusal(path).find("poses[1].pose.orientation is zero"), std::string::npos) << messageRefusal(path);
   turn(&path, 1, std::nan(""));
-  EXPECT_NE(refusalOf(path).find("poses[1].pose.orientation is not finite"), std::string::npos) << refusalOf(path);
+  EXPECT_NE(messageRefusal(path).find("poses[1].pose.orientation is not finite"), std::string::npos)
+      << messageRefusal(path);
   path.poses[2].header.frame_id = "nowhere";
   turn(&path, 1, 0.3);
-  EXPECT_NE(refusalOf(path).find("poses[2]: header.frame_id 'nowhere'"), std::string::npos) << refusalOf(path);
+  EXPECT_NE(messageRefusal(path).find("poses[2]: header.frame_id 'nowhere'"), std::string::npos)
+      << messageRefusal(path);
 }
 
 TEST(PathMessage, LeavesTheRefusalOfShortPathsToTheCheck) {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "external_command/core/error.h"
+#include "support/refusal.h"
 #include "support/zone_plans.h"
 
 namespace external_command {
@@ -28,12 +29,7 @@ std::string signedAnew(std::string text) {
 }
 
 std::string refusal(const std::string& text) {
-  try {
-    parseZone(text, kKey);
-    return "";
-  } catch (const InvalidRequest& error) {
-    return error.what();
-  }
+  return refusalOf([&] { parseZone(text, kKey); });
 }
 
 TEST(ZoneText, IsReadAsItWasWritten) {
