@@ -8,6 +8,7 @@
 #include "external_command/core/parameter_range.h"
 #include "external_command/core/text.h"
 #include "external_command/ros/status.h"
+#include "external_command/ros/steady_time.h"
 
 namespace external_command {
 
@@ -18,8 +19,6 @@ constexpr double kStood = 0.3;       // at one place, after which it stands, wha
 constexpr double kOnPath = 1.0;      // of the vehicle to the path that it is said to drive, at most [m]
 constexpr double kReserve = 1.0;     // beyond the way that stopping takes [m]
 constexpr double kUnfollowed = 1.0;  // of the path's end, that need not be driven to have arrived [m]
-
-double steadyNow() { return ros::SteadyTime::now().toSec(); }
 
 bool changesGear(const Path& path, std::size_t i) {
   return i > 0 && i + 1 < path.size() && path[i].direction != path[i + 1].direction;

@@ -6,6 +6,7 @@
 #include "external_command/core/text.h"
 #include "external_command/ros/bounded_subscription.h"
 #include "external_command/ros/log_writer.h"
+#include "external_command/ros/steady_time.h"
 
 namespace external_command {
 
@@ -15,8 +16,6 @@ constexpr int kQueueSize = 100;
 constexpr double kTidyPeriod = 0.5;  // [s]
 constexpr double kTellPeriod = 5.0;  // between two lines of the log [s]
 constexpr double kRecent = 10.0;     // a refusal is told of for so long [s]
-
-double steadyNow() { return ros::SteadyTime::now().toSec(); }
 
 }  // namespace
 

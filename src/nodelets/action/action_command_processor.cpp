@@ -9,6 +9,7 @@
 #include "external_command/PlanningPad.h"
 #include "external_command/core/text.h"
 #include "external_command/ros/bounded_subscription.h"
+#include "external_command/ros/steady_time.h"
 
 namespace external_command {
 
@@ -26,8 +27,6 @@ const std::map<std::uint8_t, std::uint8_t> kPlanningPads = {
     {ActionCommand::ENTER_MISSION, PlanningPad::ENTER_MISSION},
     {ActionCommand::EXIT_MISSION, PlanningPad::EXIT_MISSION},
 };
-
-double now() { return ros::SteadyTime::now().toSec(); }
 
 /// "PULL_OVER" -> "pull_over".
 std::string parameterNameOf(std::uint8_t action) {
@@ -148,7 +147,7 @@ CommandStatus ActionCommandProcessor::execute(const ActionCommand& command, cons
 CommandStatus ActionCommandProcessor::sendAndWatch(const ActionCommand& command, const AdmittedCommand& admitted) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto watch = [&] {
-    record(pending_->add(admitted, command.command, now()));
+    record(pending_->add(admitted, command.command, steadyNow()));
     is_waiting_ = true;
   };
   if (command.command == ActionCommand::STOP) {
@@ -206,7 +205,7 @@ CommandStatus ActionCommandProcessor::switchMode(const AdmittedCommand& admitted
           {switch_->command.serial, makeStatus(switch_->command.id, CommandStatus::ERROR, ErrorCode::kSuperseded,
                                                text("superseded by mode switch ", admitted.id))});
     }
-    switch_.emplace(RunningSwitch{admitted, ModeSwitch(target, mode_switch_params_, mode_is_settled_, now())});
+    switch_.emplace(RunningSwitch{admitted, ModeSwitch(target, mode_switch_params_, mode_is_settled_, steadyNow())});
     is_waiting_ = true;
     status = advanceSwitch().status;
   };
@@ -225,7 +224,7 @@ StatusChange ActionCommandProcessor::advanceSwitch() {
   const auto change = [&](std::uint8_t status, ErrorCode code, const std::string& message) {
     return StatusChange{command.serial, makeStatus(command.id, status, code, message)};
   };
-  switch (decision.next(mode, now())) {
+  switch (decision.next(mode, steadyNow())) {
     case ModeSwitch::Step::kSendManual:
       sendToControl(ControlPad::RESET);
       mode_is_settled_ = false;
@@ -259,7 +258,7 @@ void ActionCommandProcessor::onChassis(const Chassis& chassis) {
 void ActionCommandProcessor::onTick() {
   const std::lock_guard<std::mutex> lock(mutex_);
   pending_->keepWhere([this](CommandSerial serial) { return context().registry().isRunning(serial); });
-  record(pending_->onTime(now()));
+  record(pending_->onTime(steadyNow()));
   goOnSwitching();
   is_waiting_ = !pending_->empty() || switch_.has_value();
 }

@@ -10,14 +10,13 @@
 #include "external_command/core/text.h"
 #include "external_command/ros/bounded_subscription.h"
 #include "external_command/ros/checks.h"
+#include "external_command/ros/steady_time.h"
 
 namespace external_command {
 
 namespace {
 
-constexpr double kTick = 0.1;  // of the time-out [s]
-
-double now() { return ros::SteadyTime::now().toSec(); }
+constexpr double kTimeoutTick = 0.1;  // of the time-out [s]
 
 bool isName(std::string_view word) {
   const auto belongs = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
@@ -87,13 +86,13 @@ void ChassisCommandProcessor::subscribe(double timeout) {
   };
   chassis_subscriber_ = subscribeBounded<Chassis>(nh, topic, 10, on_chassis, context().params().requests);
   timer_ = watch_executor_.every(
-      kTick, [this] { onTick(); }, [this] { return is_waiting_.load(); });
+      kTimeoutTick, [this] { onTick(); }, [this] { return is_waiting_.load(); });
 }
 
 void ChassisCommandProcessor::onTick() {
   const std::lock_guard<std::mutex> lock(mutex_);
   pending_->keepWhere([this](CommandSerial serial) { return context().registry().isRunning(serial); });
-  record(pending_->onTime(now()));
+  record(pending_->onTime(steadyNow()));
   is_waiting_ = !pending_->empty();
 }
 
@@ -109,7 +108,7 @@ CommandStatus ChassisCommandProcessor::execute(const ChassisCommand& command, co
   context().registry().requireRunning(admitted);
   const bool changes_signals = commandsAny(command.basic_signal);
   context().gate().sendUnlessStopped(admitted, [&] {
-    if (changes_signals) record(pending_->add(admitted, command.basic_signal, now()));
+    if (changes_signals) record(pending_->add(admitted, command.basic_signal, steadyNow()));
     is_waiting_ = true;
     for (const ros::Publisher& publisher : publishers_) publisher.publish(command);
   });

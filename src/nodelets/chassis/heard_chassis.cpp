@@ -7,14 +7,11 @@
 
 #include "external_command/core/error.h"
 #include "external_command/core/text.h"
+#include "external_command/ros/steady_time.h"
 
 namespace external_command {
 
-namespace {
-
-double now() { return ros::SteadyTime::now().toSec(); }
-
-}  // namespace
+namespace {}  // namespace
 
 bool HeardChassis::take(const Chassis& chassis) {
   const double age = chassis.header.stamp.isZero() ? 0.0 : ros::Time::now().toSec() - chassis.header.stamp.toSec();
@@ -25,12 +22,12 @@ bool HeardChassis::take(const Chassis& chassis) {
                       " (~max_future_stamp): do the clocks agree?");
     return false;
   }
-  reported_ = ReportedMode{chassis.driving_mode, now() - std::max(0.0, age)};
+  reported_ = ReportedMode{chassis.driving_mode, steadyNow() - std::max(0.0, age)};
   return true;
 }
 
 std::optional<ReportedMode> HeardChassis::freshMode() const {
-  if (!reported_ || now() - reported_->time > params_.max_age) return std::nullopt;
+  if (!reported_ || steadyNow() - reported_->time > params_.max_age) return std::nullopt;
   return reported_;
 }
 
@@ -41,8 +38,9 @@ void HeardChassis::require() const {
     throw NotReady(
         text("the chassis is not heard of: no message came on ", params_.topic, " (~chassis_name); is it running?"));
   }
-  throw NotReady(text("the chassis is not heard of any more: its last report is ", seconds(now() - reported_->time),
-                      " old; the limit is ", seconds(params_.max_age), " (", params_.max_age_name, ")"));
+  throw NotReady(text("the chassis is not heard of any more: its last report is ",
+                      seconds(steadyNow() - reported_->time), " old; the limit is ", seconds(params_.max_age), " (",
+                      params_.max_age_name, ")"));
 }
 
 std::string HeardChassis::words() const {
