@@ -4,18 +4,25 @@
 
 set(EC_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)
 
-# ec_precompile(TARGET HEADERS...)
-# Parsing Eigen, roscpp and gtest takes half of a build. With EC_PRECOMPILED_HEADERS, which the scripts set, they are
-# parsed once for all targets of a kind that name the same headers. Only what all of these are compiled with may be
-# defined for that: a compiler takes it for no other. Plain catkin builds do without, and see to it that each file
-# includes what it uses.
-function(ec_precompile target)
-  if(NOT EC_PRECOMPILED_HEADERS)
+# ec_compile_quickly(TARGET [JOINED] [HEADERS...])
+# Parsing headers takes half of a build, and templates of roscpp and actionlib most of the rest. With EC_QUICK_BUILD,
+# which the scripts set, HEADERS are parsed once for all targets of a kind that name the same ones. Only what all of these
+# are compiled with may be defined for that: a compiler takes it for no other. Sources of targets that are JOINED are
+# compiled eight at a time, so that these share what they include: a name in an unnamed namespace must be the only one of
+# the library there. Plain catkin builds do without both, and see to it that each file includes what it uses.
+function(ec_compile_quickly target)
+  if(NOT EC_QUICK_BUILD)
+    return()
+  endif()
+  cmake_parse_arguments(ARG "JOINED" "" "" ${ARGN})
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${ARG_JOINED})
+  set(headers ${ARG_UNPARSED_ARGUMENTS})
+  if(NOT headers)
     return()
   endif()
   get_target_property(kind ${target} TYPE)
   get_target_property(is_pic ${target} POSITION_INDEPENDENT_CODE)
-  string(MAKE_C_IDENTIFIER "ec_parsed_${kind}_${is_pic}${ARGN}" parsed)
+  string(MAKE_C_IDENTIFIER "ec_parsed_${kind}_${is_pic}${headers}" parsed)
   if(NOT TARGET ${parsed})
     if(NOT EXISTS ${CMAKE_BINARY_DIR}/${parsed}.cpp)  # else each configuration would compile it anew
       file(TOUCH ${CMAKE_BINARY_DIR}/${parsed}.cpp)
@@ -30,22 +37,26 @@ function(ec_precompile target)
     if(kind STREQUAL EXECUTABLE)  # a test program
       target_link_libraries(${parsed} PRIVATE ${GTEST_LIBRARIES})
     endif()
-    target_precompile_headers(${parsed} PRIVATE ${ARGN})
+    target_precompile_headers(${parsed} PRIVATE ${headers})
   endif()
   target_precompile_headers(${target} REUSE_FROM ${parsed})
 endfunction()
 
-# ec_add_library(NAME SOURCES... [PUBLIC libs...] [PRIVATE libs...] [SYSTEM include dirs...] [HEADERS headers...])
-# A shared library with our warnings, in which every symbol must resolve; it is installed. HEADERS: for ec_precompile().
+# ec_add_library(NAME SOURCES... [PUBLIC libs...] [PRIVATE libs...] [SYSTEM include dirs...] [JOINED] [HEADERS headers...])
+# A shared library with our warnings, in which every symbol must resolve; it is installed. JOINED and HEADERS: for
+# ec_compile_quickly().
 function(ec_add_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE;SYSTEM;HEADERS" ${ARGN})
+  cmake_parse_arguments(ARG "JOINED" "" "SOURCES;PUBLIC;PRIVATE;SYSTEM;HEADERS" ${ARGN})
   add_library(${name} SHARED ${ARG_SOURCES})
   target_compile_features(${name} PUBLIC cxx_std_17)
   target_compile_options(${name} PRIVATE ${EC_WARNINGS})
   target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/include PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_include_directories(${name} SYSTEM PUBLIC ${EIGEN3_INCLUDE_DIRS} ${ARG_SYSTEM})
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} -Wl,--no-undefined)
-  ec_precompile(${name} <Eigen/Core> ${ARG_HEADERS})
+  if(ARG_JOINED)
+    list(APPEND ARG_HEADERS JOINED)
+  endif()
+  ec_compile_quickly(${name} <Eigen/Core> ${ARG_HEADERS})
   install(TARGETS ${name}
     ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
     LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
@@ -73,7 +84,7 @@ endfunction()
 set(EC_TEST_RESULTS_DIR ${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME})
 
 # ec_add_test_program(NAME SOURCES... LIBRARIES libs... [HEADERS headers...])
-# A program of gtest. Optimising it as what it tests is would take longer than it runs. HEADERS: for ec_precompile().
+# A program of gtest. Optimising it as what it tests is would take longer than it runs. HEADERS: for ec_compile_quickly().
 function(ec_add_test_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;HEADERS" ${ARGN})
   catkin_add_executable_with_gtest(${name} ${ARG_SOURCES} EXCLUDE_FROM_ALL)
@@ -81,7 +92,7 @@ function(ec_add_test_program name)
   target_compile_options(${name} PRIVATE ${EC_WARNINGS} $<$<CONFIG:Release>:-O1>)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/test)
   target_link_libraries(${name} ${ARG_LIBRARIES})
-  ec_precompile(${name} <Eigen/Core> <gtest/gtest.h> ${ARG_HEADERS})
+  ec_compile_quickly(${name} JOINED <Eigen/Core> <gtest/gtest.h> ${ARG_HEADERS})
   add_dependencies(tests ${name})
 endfunction()
 

@@ -118,7 +118,7 @@ ec_configure() {
   local log=$EC_BUILD_DIR/configure.log more words
   mapfile -t more < <(xargs --no-run-if-empty printf '%s\n' <<<"${EC_CMAKE_ARGS-}")
   words=(-S "$EC_ROOT" -B "$EC_BUILD_DIR" --no-warn-unused-cli -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3
-    "-DCMAKE_INSTALL_PREFIX=$EC_BUILD_DIR/.install" -DCMAKE_INSTALL_MESSAGE=NEVER -DEC_PRECOMPILED_HEADERS=ON
+    "-DCMAKE_INSTALL_PREFIX=$EC_BUILD_DIR/.install" -DCMAKE_INSTALL_MESSAGE=NEVER -DEC_QUICK_BUILD=ON
     "${more[@]}")
   local record=$EC_BUILD_DIR/.configured
   if cmp --quiet "$record" <(printf '%s\n' "${words[@]}"); then return 0; fi

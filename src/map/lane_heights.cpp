@@ -9,7 +9,7 @@ namespace external_command {
 
 namespace {
 
-constexpr double kTolerance = 0.1;  // [m]
+constexpr double kHeightTolerance = 0.1;  // [m]
 
 /// The slopes of lines from one sample that pass those seen since within the tolerance.
 struct Slopes {
@@ -20,8 +20,8 @@ struct Slopes {
   bool narrow(const HeightSample& from, const HeightSample& to) {
     const double run = std::max(to.s - from.s, 1e-3), rise = to.z - from.z;
     if (rise / run < least || rise / run > most) return false;
-    least = std::max(least, (rise - kTolerance) / run);
-    most = std::min(most, (rise + kTolerance) / run);
+    least = std::max(least, (rise - kHeightTolerance) / run);
+    most = std::min(most, (rise + kHeightTolerance) / run);
     return true;
   }
 };

@@ -12,20 +12,20 @@ namespace external_command {
 
 namespace {
 
-constexpr double kFrame = 0.03;           // around the map, of its longer side
-constexpr double kPixels = 1600.0;        // of the longer side
-constexpr double kMark = 0.004;           // radius, of the longer side
-constexpr double kLeastMark = 1.0;        // radius [m]
-constexpr double kFinest = 1.0 / 4000.0;  // between points of a line, of the longer side
-constexpr double kShowsCentres = 4000.0;  // side of a map on which centre lines can be told from lanes [m]
-constexpr std::size_t kLongest = 10000;   // text of a mark [bytes]
+constexpr double kFrame = 0.03;              // around the map, of its longer side
+constexpr double kPixels = 1600.0;           // of the longer side
+constexpr double kMark = 0.004;              // radius, of the longer side
+constexpr double kLeastMark = 1.0;           // radius [m]
+constexpr double kFinest = 1.0 / 4000.0;     // between points of a line, of the longer side
+constexpr double kShowsCentres = 4000.0;     // side of a map on which centre lines can be told from lanes [m]
+constexpr std::size_t kLongestMark = 10000;  // text of a mark [bytes]
 
 const char* colourOf(FaultSeverity severity) { return severity == FaultSeverity::kError ? "#d01010" : "#f09000"; }
 
 /// A text as XML has it.
 std::string escaped(const std::string& words) {
   std::string xml;
-  for (const char c : printable(words, kLongest)) {
+  for (const char c : printable(words, kLongestMark)) {
     switch (c) {
       case '&':
         xml += "&amp;";

@@ -8,14 +8,14 @@ namespace external_command {
 
 namespace {
 
-constexpr std::chrono::milliseconds kPeriod(10);
-constexpr int kBurst = 20;
+constexpr std::chrono::milliseconds kGoalPeriod(10);
+constexpr int kGoalsAtOnce = 20;
 
 }  // namespace
 
 void ArrivalPace::pauseIfFlooded() {
   const auto now = std::chrono::steady_clock::now();
-  next_ = std::max(next_, now - kBurst * kPeriod) + kPeriod;
+  next_ = std::max(next_, now - kGoalsAtOnce * kGoalPeriod) + kGoalPeriod;
   if (next_ > now) std::this_thread::sleep_until(next_);
 }
 

@@ -17,8 +17,8 @@ constexpr double kRouteArrow = 6.0;      // seen from high above [m]
 constexpr double kManoeuvreArrow = 2.0;  // smaller than the footprint it stands in [m]
 constexpr double kFootprintStep = 1.0;   // between two footprints drawn [m]
 constexpr int kRingCorners = 48;
-constexpr double kStraightEnough = 0.01;  // a path is drawn straight where it turns by less [rad] ...
-constexpr double kLongestLine = 10.0;     // ... and no longer than this [m]: then it is a few centimetres off
+constexpr double kStraightPath = 0.01;  // a path is drawn straight where it turns by less [rad] ...
+constexpr double kLongestLine = 10.0;   // ... and no longer than this [m]: then it is a few centimetres off
 
 std::vector<Point2d> outline(const VehicleParams& vehicle, const Pose2d& pose) {
   const auto corners = footprintAt(vehicle, pose, 0.0);
@@ -27,7 +27,7 @@ std::vector<Point2d> outline(const VehicleParams& vehicle, const Pose2d& pose) {
 
 /// A line that is drawn straight from one point of a path to another hides nothing.
 bool isStraight(const ReferencePoint& from, const ReferencePoint& to) {
-  return std::abs(angleBetween(from.heading, to.heading)) < kStraightEnough && to.s - from.s < kLongestLine;
+  return std::abs(angleBetween(from.heading, to.heading)) < kStraightPath && to.s - from.s < kLongestLine;
 }
 
 void addPath(const Path& path, Marker* lines) {

@@ -22,7 +22,7 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-constexpr std::chrono::seconds kPeriod(1);
+constexpr std::chrono::seconds kLookPeriod(1);
 
 int pidOf(const XmlRpcPeer& master) { return numberOf(master.call("getPid").value, 0); }
 
@@ -101,7 +101,7 @@ void MasterWatch::noteServices(const std::set<std::string>& registered) {
 
 void MasterWatch::run() {
   std::unique_lock<std::mutex> lock(mutex_);
-  while (!is_ending_changed_.wait_for(lock, kPeriod, [this] { return is_ending_; })) {
+  while (!is_ending_changed_.wait_for(lock, kLookPeriod, [this] { return is_ending_; })) {
     lock.unlock();
     try {
       look();

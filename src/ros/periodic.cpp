@@ -16,19 +16,19 @@ namespace external_command {
 namespace {
 
 // Boost's condition variables wait by this clock; those of older standard libraries by one that is set now and then.
-using Clock = boost::chrono::steady_clock;
+using SteadyClock = boost::chrono::steady_clock;
 
 }  // namespace
 
 struct Periodic::Job {
-  Clock::duration period;
+  SteadyClock::duration period;
   ros::CallbackQueueInterface* queue;
   std::function<void()> call;
   Wanted wanted;
   std::atomic<bool> is_in_queue{false};  ///< or runs
   std::recursive_mutex running;          ///< held while it is called, which may stop it
   bool is_stopped = false;
-  std::multimap<Clock::time_point, std::shared_ptr<Job>>::iterator place{};
+  std::multimap<SteadyClock::time_point, std::shared_ptr<Job>>::iterator place{};
 
   std::uint64_t id() const { return reinterpret_cast<std::uint64_t>(this); }
 };
@@ -57,7 +57,7 @@ class Periodic::Ticker {
 
   void add(const std::shared_ptr<Job>& job) {
     const boost::lock_guard<boost::mutex> lock(mutex_);
-    job->place = due_.emplace(Clock::now() + job->period, job);
+    job->place = due_.emplace(SteadyClock::now() + job->period, job);
     if (job->place == due_.begin()) changed_.notify_all();
   }
 
@@ -87,7 +87,7 @@ class Periodic::Ticker {
     while (!is_ending_) {
       if (due_.empty()) {
         changed_.wait(lock);
-      } else if (const Clock::time_point first = due_.begin()->first; first > Clock::now()) {
+      } else if (const SteadyClock::time_point first = due_.begin()->first; first > SteadyClock::now()) {
         changed_.wait_until(lock, first);
       } else {
         tick();
@@ -96,24 +96,24 @@ class Periodic::Ticker {
   }
 
   void tick() {
-    const Clock::time_point planned = due_.begin()->first;
+    const SteadyClock::time_point planned = due_.begin()->first;
     const std::shared_ptr<Job> job = due_.begin()->second;
     due_.erase(due_.begin());
-    job->place = due_.emplace(std::max(planned + job->period, Clock::now()), job);
+    job->place = due_.emplace(std::max(planned + job->period, SteadyClock::now()), job);
     if (job->wanted && !job->wanted()) return;
     if (!job->is_in_queue.exchange(true)) job->queue->addCallback(boost::make_shared<Tick>(job), job->id());
   }
 
   boost::mutex mutex_;
   boost::condition_variable changed_;
-  std::multimap<Clock::time_point, std::shared_ptr<Job>> due_;
+  std::multimap<SteadyClock::time_point, std::shared_ptr<Job>> due_;
   bool is_ending_ = false;
   boost::thread thread_;
 };
 
 Periodic::Periodic(double period, ros::CallbackQueueInterface* queue, std::function<void()> job, Wanted wanted)
     : ticker_(Ticker::acquire()), job_(std::make_shared<Job>()) {
-  job_->period = boost::chrono::duration_cast<Clock::duration>(boost::chrono::duration<double>(period));
+  job_->period = boost::chrono::duration_cast<SteadyClock::duration>(boost::chrono::duration<double>(period));
   job_->queue = queue;
   job_->call = std::move(job);
   job_->wanted = std::move(wanted);

@@ -12,7 +12,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kPause(50);
+constexpr std::chrono::milliseconds kRefusalPause(50);
 constexpr std::chrono::milliseconds kPeriod(10);  // between two answers of a flood that leave at once
 constexpr int kBurst = 20;
 
@@ -32,7 +32,7 @@ bool isFlood() {
 
 void RefusalPace::pauseIfFlooded() {
   if (!isFlood()) return;
-  if (++pausing_ <= most_pausing_) std::this_thread::sleep_for(kPause);
+  if (++pausing_ <= most_pausing_) std::this_thread::sleep_for(kRefusalPause);
   --pausing_;
 }
 

@@ -41,7 +41,7 @@ std::size_t indexAt(const Path& path, double s) {
 constexpr double kRoomAround = 0.5;  // that a vehicle is taken to have where nothing is known of the place [m]
 
 /// What the vehicle may stand in, to be tried in turn: a parking space, an area, else the ground under it.
-std::vector<Polygon> placesOf(const HdMap& map, const VehicleParams& vehicle, double margin, const Pose2d& pose) {
+std::vector<Polygon> placesAt(const HdMap& map, const VehicleParams& vehicle, double margin, const Pose2d& pose) {
   const Point2d middle = middleOf(vehicle, pose);
   std::vector<Polygon> places;
   for (const ParkingSpace& space : map.parkingSpaces()) {
@@ -149,7 +149,7 @@ void leaveParkingPlace(const ProcessContext& context, const Pose2d& vehicle, con
   if (!LaneWayTool(map, context.params().lane_way).isOffLane(vehicle, context.vehiclePose().height())) return;
   const double margin = planner.params().margin;
   std::string why;
-  const std::vector<Polygon> places = placesOf(map, context.params().vehicle, margin, vehicle);
+  const std::vector<Polygon> places = placesAt(map, context.params().vehicle, margin, vehicle);
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Deadline attempt = deadline.part(1.0 / static_cast<double>(places.size() - i));
     try {

@@ -14,7 +14,7 @@ namespace external_command {
 namespace {
 
 constexpr std::chrono::seconds kSearchTime(5);  // after which nothing else is tried
-constexpr double kRounding = 1e-3;              // [m]
+constexpr double kToleranceRounding = 1e-3;     // [m]
 
 /// What another pose near by may not have.
 bool mayLieAtThePose(const CommandStatus& status) {
@@ -60,7 +60,7 @@ PlannedPath findPlan(const std::function<GoalPoseService::Answer(const GoalPoseS
     GoalPoseService::Answer answer = run(goal);
     const bool is_planned = answer.status.status == CommandStatus::FINISHED;
     const double distance = is_planned ? distanceFromEnd(answer.path, wanted) : HUGE_VAL;
-    if (is_planned && (tolerance <= 0.0 || distance <= tolerance + kRounding)) return std::move(answer.path);
+    if (is_planned && (tolerance <= 0.0 || distance <= tolerance + kToleranceRounding)) return std::move(answer.path);
     if (why.empty()) {
       why = is_planned
                 ? text("the path ends ", metres(distance), " from the goal; the tolerance is ", metres(tolerance))

@@ -18,8 +18,8 @@ namespace external_command {
 
 namespace {
 
-constexpr double kTrackingPeriod = 0.1;  // [s]
-constexpr double kLeastBudget = 1e-3;    // that a plan is begun with [s]
+constexpr double kTrackingPeriod = 0.1;   // [s]
+constexpr double kShortestBudget = 1e-3;  // that a plan is begun with [s]
 
 void requireStartHeading(const ZoneCoverCommand& command) {
   if (command.way_point[0].has_heading) return;
@@ -248,7 +248,7 @@ void ZoneCoverCommandProcessor::processSpecialCommand(const ZoneCoverCommand& co
   const ZonePlanFile file = fileOf(command, zone, params);
   CoverageProgress progress = progressOf(command, zone, params, file, cancel);
   CoverageParams timed = params;
-  timed.time_budget = std::max(deadline.left(), kLeastBudget);
+  timed.time_budget = std::max(deadline.left(), kShortestBudget);
   const CoveragePlanner planner(context().params().vehicle, timed);
   std::vector<Swath> on_the_way;
   if (command.resume && beginsAtVehicle(command) && plan->path.empty()) on_the_way = sweptUntil(plan->start, file);

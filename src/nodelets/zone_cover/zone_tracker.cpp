@@ -12,13 +12,13 @@ namespace external_command {
 
 namespace {
 
-constexpr double kLookAhead = 15.0;     // along the path; neighbouring swaths must not be taken for the present one [m]
-constexpr double kFarthest = 3.0;       // from the path [m]
-constexpr double kLeap = 60.0;          // along the path, from one pose to the next [m]
-constexpr double kNear = 1.0;           // to the path after a leap [m]
-constexpr double kHeadingWeight = 2.0;  // of a radian, as distance [m]
-constexpr double kAheadWeight = 0.02;   // of a metre along the path: a lap ends where it begins
-constexpr double kPassed = 0.05;        // before a point a vehicle that is about to stop counts as there [m]
+constexpr double kLookAhead = 15.0;  // along the path; neighbouring swaths must not be taken for the present one [m]
+constexpr double kFarthestFromPath = 3.0;  // from the path [m]
+constexpr double kLeap = 60.0;             // along the path, from one pose to the next [m]
+constexpr double kNear = 1.0;              // to the path after a leap [m]
+constexpr double kHeadingWeight = 2.0;     // of a radian, as distance [m]
+constexpr double kAheadWeight = 0.02;      // of a metre along the path: a lap ends where it begins
+constexpr double kPassed = 0.05;           // before a point a vehicle that is about to stop counts as there [m]
 
 }  // namespace
 
@@ -47,7 +47,7 @@ std::optional<std::size_t> ZoneTracker::nearest(const Pose2d& vehicle, double lo
 }
 
 void ZoneTracker::update(const Pose2d& vehicle) {
-  std::optional<std::size_t> found = nearest(vehicle, kLookAhead, kFarthest);
+  std::optional<std::size_t> found = nearest(vehicle, kLookAhead, kFarthestFromPath);
   // A vehicle that was seen to leave the path has not swept what it comes back behind.
   if (!found && is_on_path_) found = nearest(vehicle, kLeap, kNear + kAheadWeight * kLeap);
   is_on_path_ = found.has_value();
