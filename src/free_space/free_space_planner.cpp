@@ -23,6 +23,8 @@ namespace {
 
 constexpr double kMaxDistance = 10'000.0;    ///< between start and goals [m]
 constexpr std::size_t kFirstPatience = 150;  ///< trials that make a first path out of what the search found
+constexpr double kFinishing = 3.0;        ///< times what the first path took is kept for the ramps of the improved one
+constexpr double kLeastFinishing = 0.02;  ///< share of time_budget that is kept for them
 constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
 
 /// A goal that is free.
@@ -71,7 +73,9 @@ class Planning {
 
   FreeSpacePlan run() {
     Solution best = firstSolution();
+    const Clock::time_point found = Clock::now();
     FreeSpacePlan result = finish(best);
+    finishing_time_ = std::max(kFinishing * secondsSince(found), kLeastFinishing * params_.time_budget);
     result.first_path_time = secondsSince(begin_);
     result.first_path_cost = result.cost;
     result.first_path_length = result.length;
@@ -240,7 +244,7 @@ class Planning {
   /// Improves side by side with different seeds and takes the cheapest.
   Solution improved(const Solution& first) const {
     const Query& query = first.approach->query;
-    const StopCondition stop = stop_.within(params_.improve_budget);
+    const StopCondition stop = stop_.sooner(finishing_time_).within(params_.improve_budget);
     const auto improve = [&](unsigned thread) {
       WorkBudget budget(params_.improve_iterations > 0 ? params_.improve_iterations : kUnlimited, stop);
       return AnytimeImprover(scene_, cost_, query, areaOf(query), params_.seed + 7919 * thread)
@@ -306,10 +310,12 @@ class Planning {
     return withSteeringRamps(start_, arcs, vehicle_, params_.manoeuvre_speed, keepsMargin);
   }
 
-  /// Takes the better solution, unless it fails the last check: then the first path stays.
+  /// Takes the better solution, unless it fails the last check, or time runs out before all its ramps are made: then
+  /// the first path stays.
   void replace(FreeSpacePlan* result, const Solution& better) const {
     try {
       FreeSpacePlan finished = finish(better);
+      if (params_.continuous_curvature && stop_.isReached()) return;
       finished.first_path_time = result->first_path_time;
       finished.first_path_cost = result->first_path_cost;
       finished.first_path_length = result->first_path_length;
@@ -339,6 +345,7 @@ class Planning {
   DrivingCost cost_;
   std::vector<Approach> approaches_;
   std::vector<Warning> warnings_;
+  double finishing_time_ = 0.0;  ///< that the improvement leaves [s]
 };
 
 void requireUsable(const Pose2d& start, const std::vector<Pose2d>& goals) {

@@ -30,6 +30,9 @@ class StopCondition {
   /// The same, but not later than `seconds` from now.
   StopCondition within(double seconds) const { return {cancel_, std::min(after(Clock::now(), seconds), deadline_)}; }
 
+  /// The same, but `seconds` sooner.
+  StopCondition sooner(double seconds) const { return {cancel_, after(deadline_, -seconds)}; }
+
   const CancelToken& cancel() const { return cancel_; }
 
  private:

@@ -50,6 +50,17 @@ TEST(ContinuousCurvature, SteersGraduallyWhereThatIsWished) {
   }
 }
 
+TEST(ContinuousCurvature, SteersGraduallyThoughTheImprovementMayTakeAllTheTime) {
+  FreeSpaceParams params = paramsWith(true);
+  params.time_budget = params.improve_budget = 1.0;
+  params.improve_iterations = 0;
+  for (const ParkingWorld& world : {parallelSlot(1.5), bay(0.4)}) {
+    const FreeSpacePlan result = planned(world, params);
+    EXPECT_LT(result.cost, result.first_path_cost + 1e-9);
+    EXPECT_LT(largestJump(result.path), 0.6 * largestJump(planned(world, paramsWith(false)).path));
+  }
+}
+
 TEST(ContinuousCurvature, SteersGraduallyAtTheManoeuvreSpeedWhereThereIsRoom) {
   ParkingWorld world = parallelSlot(1.5);
   world.region = Region();
