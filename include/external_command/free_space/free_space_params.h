@@ -25,9 +25,9 @@ struct FreeSpaceParams {
 
   double gear_change_cost = 3.0;  ///< price of a gear change, as length, not negative [m]
   double reverse_factor = 2.0;    ///< price of a metre in reverse, as length forward, [1, 100]
-  double steering_cost = 0.2;   ///< price of turning the wheels from straight on to full lock between gear changes, as
+  double steering_cost = 0.15;  ///< price of turning the wheels from straight on to full lock between gear changes, as
                                 ///< length, in [0, 100] [m]
-  double closeness_cost = 0.3;  ///< price of a metre beside an obstacle at the margin, as length on top of it; less
+  double closeness_cost = 0.2;  ///< price of a metre beside an obstacle at the margin, as length on top of it; less
                                 ///< farther away, in [0, 100]
   double closeness_distance = 0.5;  ///< beyond the margin; from there on it costs nothing, [0.01, 2] [m]
   double spacing = 0.05;            ///< between points of the result, at most, [0.01, 1] [m]
