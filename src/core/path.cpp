@@ -9,6 +9,7 @@ namespace external_command {
 namespace {
 
 constexpr double kSamePoint = 1e-6;  // [m]
+constexpr double kNoTurn = 1e-9;     // of the wheels [rad]
 
 double stepLength(const ReferencePoint& from, const ReferencePoint& to) {
   return std::hypot(to.x - from.x, to.y - from.y);
@@ -38,6 +39,23 @@ Path join(const Path& first, const Path& second) {
   }
   setArcLengths(&joined);
   return joined;
+}
+
+Path join(const Path& first, const Path& second, const VehicleParams& vehicle) {
+  Path joined = join(first, second);
+  const std::size_t seam = first.size();  // its first point that is not of `first`
+  if (seam == 0 || seam >= joined.size()) return joined;
+  ReferencePoint &before = joined[seam - 1], &after = joined[seam];
+  if (before.direction != after.direction) return joined;  // the vehicle stops there
+  const double speed = steeringSpeed(vehicle, before, after);
+  before.speed = std::min(before.speed, speed);
+  after.speed = std::min(after.speed, speed);
+  return joined;
+}
+
+double steeringSpeed(const VehicleParams& vehicle, const ReferencePoint& from, const ReferencePoint& to) {
+  const double turned = std::abs(std::atan(vehicle.wheelbase * to.kappa) - std::atan(vehicle.wheelbase * from.kappa));
+  return vehicle.max_steering_rate * std::max(to.s - from.s, kSamePoint) / std::max(turned, kNoTurn);
 }
 
 void setArcLengths(Path* path) {

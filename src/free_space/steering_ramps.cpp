@@ -217,12 +217,6 @@ Arcs withRamps(const Pose2d& from, const Arcs& arcs, double max_kappa, double sl
   return arcs;
 }
 
-/// d(steering angle)/d(distance) [rad/m].
-double steeringSlope(const VehicleParams& vehicle, const ReferencePoint& a, const ReferencePoint& b) {
-  const double turned = std::atan(vehicle.wheelbase * b.kappa) - std::atan(vehicle.wheelbase * a.kappa);
-  return std::abs(turned) / std::max(b.s - a.s, 1e-9);
-}
-
 }  // namespace
 
 Arcs withSteeringRamps(const Pose2d& from, const Arcs& arcs, const VehicleParams& vehicle, double speed,
@@ -242,8 +236,7 @@ void limitSteering(const VehicleParams& vehicle, Path* path) {
   for (std::size_t i = 1; i < path->size(); ++i) {
     ReferencePoint &before = (*path)[i - 1], &point = (*path)[i];
     if (before.direction != point.direction) continue;
-    const double slope = steeringSlope(vehicle, before, point);
-    const double limit = vehicle.max_steering_rate / std::max(slope, 1e-9);
+    const double limit = steeringSpeed(vehicle, before, point);
     before.speed = std::min(before.speed, limit);
     point.speed = std::min(point.speed, limit);
   }

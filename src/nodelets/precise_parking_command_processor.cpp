@@ -124,7 +124,7 @@ void PreciseParkingCommandProcessor::processSpecialCommand(const PreciseParkingC
   }
   if (plan->path.empty()) {
     plan->scene.start = entry;
-    appendManoeuvre(planner_->plan(entry, {before}, region, deadline, cancel, plan->scene), plan);
+    planner_->append(planner_->plan(entry, {before}, region, deadline, cancel, plan->scene), plan);
     showRegion(region, &plan->scene);
   } else {
     if (!command.is_start_pose_set) {
@@ -132,7 +132,7 @@ void PreciseParkingCommandProcessor::processSpecialCommand(const PreciseParkingC
     }
     leaveRouteFor({before}, region, *planner_, deadline, cancel, plan);
   }
-  plan->path = join(plan->path, last);
+  plan->path = join(plan->path, last, context().params().vehicle);
   const double clearance = checker.minClearance(last);
   if (clearance < planner_->params().margin - kRounding) {
     plan->report.warnings.push_back(

@@ -74,14 +74,13 @@ Path pathThrough(const std::vector<Point2d>& points, std::size_t first, std::siz
   return path;
 }
 
-/// The speed at which the steering can follow from a point to the next.
-double steeringSpeed(const VehicleParams& vehicle, const ReferencePoint& from, const ReferencePoint& to) {
+/// The speed at which the steering can follow from a point to the next; not below a crawl.
+double followedSpeed(const VehicleParams& vehicle, const ReferencePoint& from, const ReferencePoint& to) {
   // The wheels turn by this at most, which is quick to tell, and enough nearly everywhere.
   const double most = vehicle.wheelbase * std::abs(to.kappa - from.kappa);
   const double reachable = vehicle.max_steering_rate * (to.s - from.s);
   if (reachable >= most * std::max(from.speed, to.speed)) return std::max(from.speed, to.speed);
-  const double turned = std::abs(std::atan(vehicle.wheelbase * to.kappa) - std::atan(vehicle.wheelbase * from.kappa));
-  return std::max(kSlowest, reachable / std::max(turned, 1e-9));
+  return std::max(kSlowest, steeringSpeed(vehicle, from, to));
 }
 
 void capSpeeds(const std::vector<CoursePoint>& course, const CourseLayout& layout, const VehicleParams& vehicle,
@@ -91,7 +90,7 @@ void capSpeeds(const std::vector<CoursePoint>& course, const CourseLayout& layou
     point.speed = course[layout.places[layout.first + i]].speed_limit;
     if (i == 0) continue;
     ReferencePoint& before = (*path)[i - 1];
-    const double speed = steeringSpeed(vehicle, before, point);
+    const double speed = followedSpeed(vehicle, before, point);
     before.speed = std::min(before.speed, speed);
     point.speed = std::min(point.speed, speed);
   }

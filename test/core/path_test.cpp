@@ -37,6 +37,30 @@ Path aheadAndBack() {
   return join(ahead, arc(ahead.back().pose(), 0.1, 0.5, 11, Direction::kReverse));
 }
 
+TEST(Path, IsSlowWhereTheCurvatureStepsBetweenItsParts) {
+  VehicleParams vehicle;
+  Path ahead = arc({0, 0, 0}, 0.0, 0.5, 21), turn = arc(ahead.back().pose(), 0.15, 0.1, 51);
+  setCurvatures(&ahead);
+  setCurvatures(&turn);
+  Path path = join(ahead, turn, vehicle);
+  limitSpeeds(vehicle, &path);
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const double mean = 0.5 * (path[i - 1].speed + path[i].speed), time = (path[i].s - path[i - 1].s) / mean;
+    const double turned = std::atan(vehicle.wheelbase * (path[i].kappa - path[i - 1].kappa));
+    EXPECT_LE(std::abs(turned) / time, 1.01 * vehicle.max_steering_rate) << i;
+  }
+}
+
+TEST(Path, IsAsFastAsItsPartsWhereTheCurvatureGoesOn) {
+  Path ahead = arc({0, 0, 0}, 0.0, 0.5, 21), further = arc(ahead.back().pose(), 0.0, 0.5, 21);
+  for (const ReferencePoint& point : join(ahead, further, VehicleParams())) EXPECT_EQ(point.speed, 10.0);
+}
+
+TEST(Path, StopsAnywayWhereTheGearChangesBetweenItsParts) {
+  const Path ahead = arc({0, 0, 0}, 0.0, 0.5, 21), back = arc(ahead.back().pose(), 0.15, 0.5, 11, Direction::kReverse);
+  EXPECT_EQ(join(ahead, back, VehicleParams())[21].speed, 10.0) << "the wheels turn while the vehicle stands";
+}
+
 TEST(Path, MeasuresArcsAlongTheCircle) {
   const Path path = arc({3, 4, 1}, 0.2, 1.0, 11);
   EXPECT_NEAR(path.back().s, 10.0, 1e-9);

@@ -78,6 +78,16 @@ class ManoeuvresTest(unittest.TestCase):
         self.assertLess(math.hypot(last.x - goal.x, last.y - goal.y), 1e-3)
         self.assertLess(abs(math.remainder(last.heading - goal.heading, 2.0 * math.pi)), math.radians(0.01))
 
+    def assert_wheels_follow(self, path):
+        """Between gear changes, manoeuvre, lanes and where they meet included, they need not turn faster than they can."""
+        vehicle = rospy.get_param("/apollo/external_command/vehicle")
+        for a, b in zip(path.points, path.points[1:]):
+            if a.direction != b.direction or b.s - a.s < 1e-6:
+                continue
+            turned = math.atan(vehicle["wheelbase"] * b.kappa) - math.atan(vehicle["wheelbase"] * a.kappa)
+            rate = abs(turned) * 0.5 * (a.speed + b.speed) / (b.s - a.s)
+            self.assertLess(rate, 1.05 * vehicle["max_steering_rate"], "at %.1f m" % a.s)
+
     def assert_running(self, answer):
         self.assertEqual(answer.status.status, CommandStatus.RUNNING, support.describe(answer.status))
         return answer.status.command_id
@@ -165,6 +175,7 @@ class ManoeuvresTest(unittest.TestCase):
                 self.assertGreater(answer.report.gear_changes + answer.report.path_length, 0.0)
                 self.assertGreater(answer.report.min_clearance, 0.0)
                 self.assertGreater(answer.report.near_length, 0.0, "a space is hardly wider than the vehicle")
+                self.assert_wheels_follow(answer.path)
 
     def test_parks_and_leaves_the_space_again(self):
         self.drive("apollo", self.valet("n_out_5"))
@@ -176,6 +187,7 @@ class ManoeuvresTest(unittest.TestCase):
         x, y, _ = self.vehicle("base_link")
         first = command.path.points[0]
         self.assertLess(math.hypot(first.x - x, first.y - y), 1.0)
+        self.assert_wheels_follow(command.path)
         self.drive("apollo", answer)
 
     def precise(self, spot=CHARGING_SPOT, **fields):
@@ -189,6 +201,7 @@ class ManoeuvresTest(unittest.TestCase):
                                       dry_run=True)
                 self.assertEqual(answer.status.status, CommandStatus.FINISHED, support.describe(answer.status))
                 self.assert_ends_at(answer.path, CHARGING_SPOT)
+                self.assert_wheels_follow(answer.path)
                 self.assertEqual(answer.path.points[-1].direction, gear)
                 self.assertTrue(answer.report.lane_ids)
 

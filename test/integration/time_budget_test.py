@@ -25,8 +25,8 @@ ALLOWANCE = 0.5  # beyond the budget: for the route, the service call, and a bus
 TRIES = 3
 
 
-def component(budget):
-    own = {"free_space": {"time_budget": budget, "improve_budget": 0.0}}
+def component(budget, **improvement):
+    own = {"free_space": dict({"time_budget": budget, "improve_budget": 0.0}, **improvement)}
     zone = dict(own, coverage={"time_budget": budget})
     names = [LANE_FOLLOW] + ["external_command/%sCommandProcessor" % name for name in PLUGINS.values()]
     return Component("/time_budget", {
@@ -81,6 +81,16 @@ class TimeBudgetTest(unittest.TestCase):
         self.assertEqual(answer.status.error_code, CommandStatus.OK, support.describe(answer.status))
         self.assertTrue([w for w in answer.report.warnings if "from the vehicle" in w and "time_budget" in w],
                         answer.report.warnings)
+
+    def test_a_path_is_continuous_though_its_improvement_may_take_all_the_time(self):
+        with component(1.0, improve_budget=1.0, improve_iterations=0) as process:
+            answer = next(answer for name, answer, _ in self.answers(process) if name == "valet_parking")
+        self.assertEqual(answer.status.error_code, CommandStatus.OK, support.describe(answer.status))
+        points = answer.path.points
+        full_lock = max(abs(point.kappa) for point in points)
+        jumps = [a.s for a, b in zip(points, points[1:])
+                 if a.direction == b.direction and abs(b.kappa - a.kappa) > 0.5 * full_lock]
+        self.assertLessEqual(len(jumps), 2, "%s m: but for where lanes end a manoeuvre and begin the next" % jumps)
 
 
 if __name__ == "__main__":

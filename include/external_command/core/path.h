@@ -33,6 +33,13 @@ using Path = std::vector<ReferencePoint>;
 /// `first` and then `second`, whose first point is where `first` ends; `s` runs on. Caps of the speed stay as they are.
 Path join(const Path& first, const Path& second);
 
+/// The same for paths that the vehicle drives through without a stop: where the curvature steps between both, the
+/// points on both sides of the step are capped to steeringSpeed().
+Path join(const Path& first, const Path& second, const VehicleParams& vehicle);
+
+/// The speed at which the wheels turn in time from one point to the next [m/s].
+double steeringSpeed(const VehicleParams& vehicle, const ReferencePoint& from, const ReferencePoint& to);
+
 /// Sets `s` of every point from the positions.
 void setArcLengths(Path* path);
 

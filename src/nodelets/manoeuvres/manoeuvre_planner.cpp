@@ -204,8 +204,8 @@ void ManoeuvrePlanner::showConflicts(const std::vector<Pose2d>& poses, const Reg
   context_.display().showRefused(std::move(scene));
 }
 
-void appendManoeuvre(const FreeSpacePlan& manoeuvre, MotionPlan* plan) {
-  plan->path = join(plan->path, manoeuvre.path);
+void ManoeuvrePlanner::append(const FreeSpacePlan& manoeuvre, MotionPlan* plan) const {
+  plan->path = join(plan->path, manoeuvre.path, context_.params().vehicle);
   plan->report.min_clearance = plan->report.min_clearance > 0.0
                                    ? std::min(plan->report.min_clearance, manoeuvre.min_clearance)
                                    : manoeuvre.min_clearance;

@@ -62,6 +62,9 @@ class ManoeuvrePlanner {
   void showConflicts(const std::vector<Pose2d>& poses, const Region& region, CommandScene scene,
                      const CancelToken& cancel) const;
 
+  /// Adds a manoeuvre to the end of the plan's path, and what is to be told of it to the report.
+  void append(const FreeSpacePlan& manoeuvre, MotionPlan* plan) const;
+
  private:
   struct LatestGrid;
   struct PlacedGrid;
@@ -84,9 +87,6 @@ class ManoeuvrePlanner {
 /// @throws InvalidParameter
 FreeSpaceParams readFreeSpaceParams(const ParameterReader& reader);
 RegionLimits readRegionLimits(const ParameterReader& reader);
-
-/// Adds a manoeuvre to the end of the plan's path, and what is to be told of it to the report.
-void appendManoeuvre(const FreeSpacePlan& manoeuvre, MotionPlan* plan);
 
 /// Outlines of a region for the display.
 void showRegion(const Region& region, CommandScene* scene);

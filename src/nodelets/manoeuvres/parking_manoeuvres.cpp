@@ -140,7 +140,7 @@ void leaveRouteFor(const std::vector<Pose2d>& goals, const Region& region, const
   plan->path.resize(best_index + 1);
   showRegion(region, &plan->scene);
   plan->scene.goal = goals[best->goal_index];
-  appendManoeuvre(*best, plan);
+  planner.append(*best, plan);
 }
 
 void leaveParkingPlace(const ProcessContext& context, const Pose2d& vehicle, const ManoeuvrePlanner& planner,
@@ -159,8 +159,8 @@ void leaveParkingPlace(const ProcessContext& context, const Pose2d& vehicle, con
       const auto joint = static_cast<std::ptrdiff_t>(joints.indices[out.goal_index]);
       const Path rest(plan->path.begin() + joint, plan->path.end());
       plan->path.clear();
-      appendManoeuvre(out, plan);
-      plan->path = join(plan->path, rest);
+      planner.append(out, plan);
+      plan->path = join(plan->path, rest, context.params().vehicle);
       plan->scene.start = vehicle;
       return;
     } catch (const Cancelled&) {

@@ -224,7 +224,7 @@ std::vector<Swath> ZoneCoverCommandProcessor::sweptUntil(const PlanStart& start,
 }
 
 void ZoneCoverCommandProcessor::appendCoverage(const CoverageResult& coverage, MotionPlan* plan) const {
-  plan->path = join(plan->path, coverage.path);
+  plan->path = join(plan->path, coverage.path, context().params().vehicle);
   PlanReport& report = plan->report;
   report.coverage_ratio = coverage.covered_free;
   report.reachable_coverage_ratio = coverage.coverage_ratio;
