@@ -11,8 +11,6 @@
 
 namespace external_command {
 
-namespace {}  // namespace
-
 bool HeardChassis::take(const Chassis& chassis) {
   const double age = chassis.header.stamp.isZero() ? 0.0 : ros::Time::now().toSec() - chassis.header.stamp.toSec();
   odd_stamp_.clear();
