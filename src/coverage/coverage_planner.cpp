@@ -13,6 +13,7 @@
 #include "coverage/path/connector.h"
 #include "external_command/core/error.h"
 #include "external_command/core/text.h"
+#include "motion/steering_limit.h"
 
 namespace external_command {
 
@@ -102,6 +103,7 @@ class PathBuilder {
       point.speed = field_.vehicle().max_speed;
     }
     setArcLengths(&path);
+    limitSteering(field_.vehicle(), &path);
     result_->length = path.empty() ? 0.0 : path.back().s;
     result_->gear_changes = gearChanges(path);
     for (std::size_t i = 1; i < result_->swaths.size(); ++i) {

@@ -15,6 +15,7 @@
 #include "free_space/search/no_way.h"
 #include "last_check.h"
 #include "motion/collision_probe.h"
+#include "motion/steering_limit.h"
 #include "steering_ramps.h"
 
 namespace external_command {

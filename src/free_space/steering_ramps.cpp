@@ -232,14 +232,4 @@ Arcs withSteeringRamps(const Pose2d& from, const Arcs& arcs, const VehicleParams
   return result;
 }
 
-void limitSteering(const VehicleParams& vehicle, Path* path) {
-  for (std::size_t i = 1; i < path->size(); ++i) {
-    ReferencePoint &before = (*path)[i - 1], &point = (*path)[i];
-    if (before.direction != point.direction) continue;
-    const double limit = steeringSpeed(vehicle, before, point);
-    before.speed = std::min(before.speed, limit);
-    point.speed = std::min(point.speed, limit);
-  }
-}
-
 }  // namespace external_command

@@ -24,7 +24,4 @@ using CurveCheck = std::function<bool(const Pose2d& from, const Arcs& arcs)>;
 Arcs withSteeringRamps(const Pose2d& from, const Arcs& arcs, const VehicleParams& vehicle, double speed,
                        const CurveCheck& is_allowed);
 
-/// Lowers the speed limits of a path to what its steering allows between gear changes.
-void limitSteering(const VehicleParams& vehicle, Path* path);
-
 }  // namespace external_command

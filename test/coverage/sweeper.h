@@ -30,7 +30,8 @@ inline CoverageResult planned(const CoverageArea& area, const CoverageProgress& 
   return CoveragePlanner(sweeper(), params()).plan(area, kStart, progress, {});
 }
 
-/// Every pose of the path keeps the whole footprint inside; between neighbours the vehicle moves as a car does.
+/// Every pose of the path keeps the whole footprint inside; between neighbours the vehicle moves as a car does, and
+/// turns its wheels no faster than it can.
 inline testing::AssertionResult isDrivable(const Path& path, const CoverageArea& area) {
   Region::Parts parts;
   parts.drivable = area.outer;
@@ -44,6 +45,11 @@ inline testing::AssertionResult isDrivable(const Path& path, const CoverageArea&
     const double turn = std::abs(angleBetween(path[i - 1].heading, path[i].heading));
     if (turn > 1.02 * (path[i].s - path[i - 1].s) / sweeper().min_turning_radius + 1e-3) {
       return testing::AssertionFailure() << "turns by " << turn << " rad at " << i;
+    }
+    const bool stands = path[i].direction != path[i - 1].direction;
+    const double fastest = stands ? INFINITY : steeringSpeed(sweeper(), path[i - 1], path[i]);
+    if (0.5 * (path[i - 1].speed + path[i].speed) > 1.01 * fastest) {
+      return testing::AssertionFailure() << "is too fast to be steered at " << i;
     }
   }
   return testing::AssertionSuccess();

@@ -230,6 +230,7 @@ class ManoeuvresTest(unittest.TestCase):
         self.assertTrue(answer.report.lane_ids)
         self.assertTrue(any(answer.path.tool_on))
         self.assertFalse(answer.path.tool_on[0])
+        self.assert_wheels_follow(answer.path)
 
     def test_zone_cover_refuses_what_cannot_be_swept(self):
         self.drive_to_the_middle()
