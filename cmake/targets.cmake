@@ -9,7 +9,7 @@ set(EC_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)
 # which the scripts set, HEADERS are parsed once for all targets of a kind that name the same ones. Only what all of these
 # are compiled with may be defined for that: a compiler takes it for no other. Sources of targets that are JOINED are
 # compiled eight at a time, so that these share what they include: a name in an unnamed namespace must be the only one of
-# the library there. Plain catkin builds do without both, and see to it that each file includes what it uses.
+# its target there. Plain catkin builds do without both, and see to it that each file includes what it uses.
 function(ec_compile_quickly target)
   if(NOT EC_QUICK_BUILD)
     return()

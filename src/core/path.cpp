@@ -27,6 +27,14 @@ double arcLength(const ReferencePoint& from, const ReferencePoint& to) {
   return half < 1e-6 ? chord : chord * half / std::sin(half);
 }
 
+/// limitSteering() for two points that follow each other.
+void limitStep(const VehicleParams& vehicle, ReferencePoint* before, ReferencePoint* after) {
+  if (before->direction != after->direction) return;
+  const double speed = steeringSpeed(vehicle, *before, *after);
+  before->speed = std::min(before->speed, speed);
+  after->speed = std::min(after->speed, speed);
+}
+
 }  // namespace
 
 Path join(const Path& first, const Path& second) {
@@ -44,18 +52,18 @@ Path join(const Path& first, const Path& second) {
 Path join(const Path& first, const Path& second, const VehicleParams& vehicle) {
   Path joined = join(first, second);
   const std::size_t seam = first.size();  // its first point that is not of `first`
-  if (seam == 0 || seam >= joined.size()) return joined;
-  ReferencePoint &before = joined[seam - 1], &after = joined[seam];
-  if (before.direction != after.direction) return joined;  // the vehicle stops there
-  const double speed = steeringSpeed(vehicle, before, after);
-  before.speed = std::min(before.speed, speed);
-  after.speed = std::min(after.speed, speed);
+  if (seam == 0 || seam == joined.size()) return joined;
+  limitStep(vehicle, &joined[seam - 1], &joined[seam]);
   return joined;
 }
 
 double steeringSpeed(const VehicleParams& vehicle, const ReferencePoint& from, const ReferencePoint& to) {
   const double turned = std::abs(std::atan(vehicle.wheelbase * to.kappa) - std::atan(vehicle.wheelbase * from.kappa));
   return vehicle.max_steering_rate * std::max(to.s - from.s, kSamePoint) / std::max(turned, kNoTurn);
+}
+
+void limitSteering(const VehicleParams& vehicle, Path* path) {
+  for (std::size_t i = 1; i < path->size(); ++i) limitStep(vehicle, &(*path)[i - 1], &(*path)[i]);
 }
 
 void setArcLengths(Path* path) {

@@ -13,7 +13,6 @@
 #include "coverage/path/connector.h"
 #include "external_command/core/error.h"
 #include "external_command/core/text.h"
-#include "motion/steering_limit.h"
 
 namespace external_command {
 

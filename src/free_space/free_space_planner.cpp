@@ -15,7 +15,6 @@
 #include "free_space/search/no_way.h"
 #include "last_check.h"
 #include "motion/collision_probe.h"
-#include "motion/steering_limit.h"
 #include "steering_ramps.h"
 
 namespace external_command {
@@ -76,13 +75,13 @@ class Planning {
     Solution best = firstSolution();
     const Clock::time_point found = Clock::now();
     FreeSpacePlan result = finish(best);
-    finishing_time_ = std::max(kFinishing * secondsSince(found), kLeastFinishing * params_.time_budget);
+    const double finishing = std::max(kFinishing * secondsSince(found), kLeastFinishing * params_.time_budget);
     result.first_path_time = secondsSince(begin_);
     result.first_path_cost = result.cost;
     result.first_path_length = result.length;
     result.first_path_gear_changes = result.gear_changes;
     if (params_.planner == "portfolio" && params_.improve_budget > 0.0) {
-      const Solution better = improved(best);
+      const Solution better = improved(best, stop_.sooner(finishing).within(params_.improve_budget));
       if (better.cost < best.cost) replace(&result, better);
     }
     toMapFrame(&result.path);
@@ -243,9 +242,8 @@ class Planning {
   }
 
   /// Improves side by side with different seeds and takes the cheapest.
-  Solution improved(const Solution& first) const {
+  Solution improved(const Solution& first, const StopCondition& stop) const {
     const Query& query = first.approach->query;
-    const StopCondition stop = stop_.sooner(finishing_time_).within(params_.improve_budget);
     const auto improve = [&](unsigned thread) {
       WorkBudget budget(params_.improve_iterations > 0 ? params_.improve_iterations : kUnlimited, stop);
       return AnytimeImprover(scene_, cost_, query, areaOf(query), params_.seed + 7919 * thread)
@@ -346,7 +344,6 @@ class Planning {
   DrivingCost cost_;
   std::vector<Approach> approaches_;
   std::vector<Warning> warnings_;
-  double finishing_time_ = 0.0;  ///< that the improvement leaves [s]
 };
 
 void requireUsable(const Pose2d& start, const std::vector<Pose2d>& goals) {

@@ -4,6 +4,7 @@
 #include "external_command/ros/diagnostics.h"
 #include "external_command/ros/process_context.h"
 #include "external_command/ros/status_name.h"
+#include "external_command/ros/steady_time.h"
 
 namespace external_command {
 
@@ -47,7 +48,7 @@ std::unique_ptr<Diagnostics> ProcessContext::makeDiagnostics(const ros::NodeHand
   auto diagnostics = std::make_unique<Diagnostics>(nh_, parameters, conditions_);
   diagnostics->add("pose", [this](Diagnostics::Status& status) { tellPose(vehicle_pose_, &status); });
   diagnostics->add("planner", [this](Diagnostics::Status& status) {
-    if (hasPlannerReported()) status.add("since its last report [s]", ros::SteadyTime::now().toSec() - last_report_);
+    if (hasPlannerReported()) status.add("since its last report [s]", steadyNow() - last_report_);
   });
   diagnostics->add("planning", [this](Diagnostics::Status& status) { tellLoad(planning_pool_->load(), &status); });
   diagnostics->add("commands", [this](Diagnostics::Status& status) { tellCommands(registry_, refusals_, &status); });

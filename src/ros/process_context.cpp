@@ -13,6 +13,7 @@
 #include "external_command/ros/parameter_check.h"
 #include "external_command/ros/ros_folder.h"
 #include "external_command/ros/status.h"
+#include "external_command/ros/steady_time.h"
 #include "external_command/routing/reference_paths.h"
 
 namespace external_command {
@@ -209,7 +210,7 @@ Cancellation ProcessContext::cancelById(std::int64_t command_id, const std::stri
 ProcessContext::~ProcessContext() = default;
 
 void ProcessContext::takeReport(CommandStatus report, const std::string& processor) {
-  last_report_ = ros::SteadyTime::now().toSec();
+  last_report_ = steadyNow();
   report.message = statusMessage(report.message);
   if (registry_.report(report, processor)) return;
   logLater(LogLevel::kWarn, odd_reports_,

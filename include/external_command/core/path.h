@@ -40,6 +40,10 @@ Path join(const Path& first, const Path& second, const VehicleParams& vehicle);
 /// The speed at which the wheels turn in time from one point to the next [m/s].
 double steeringSpeed(const VehicleParams& vehicle, const ReferencePoint& from, const ReferencePoint& to);
 
+/// Lowers the caps of a path to steeringSpeed() from point to point, but for gear changes: the vehicle stands there,
+/// and turns its wheels meanwhile.
+void limitSteering(const VehicleParams& vehicle, Path* path);
+
 /// Sets `s` of every point from the positions.
 void setArcLengths(Path* path);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <ros/steady_timer.h>
+#include <ros/time.h>
 
 namespace external_command {
 
