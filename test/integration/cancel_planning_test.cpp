@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // A command is cancelled while it is planned or driven, and no other is touched.
 #include <gtest/gtest.h>
-#include <nodelet/loader.h>
 #include <ros/ros.h>
 
 #include <algorithm>
 #include <chrono>
 #include <future>
-#include <pluginlib/class_loader.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +20,7 @@
 #include "external_command/ZoneCover.h"
 #include "support/blocking_nodelets.h"
 #include "support/inbox.h"
+#include "support/nodelet_manager.h"
 
 namespace external_command {
 namespace {
@@ -47,17 +46,14 @@ bool isWithdrawal(const PlanningCommand& command) { return !command.is_motion_co
 class Cancel : public testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_TRUE(load("external_command", "external_command/ExternalCommandProcessComponent"));
-    ASSERT_TRUE(load("planner", "test/BlockingPlanner"));
+    manager_.provide("test/BlockingPlanner", &planner_);
+    ASSERT_TRUE(manager_.load("external_command", "external_command/ExternalCommandProcessComponent"));
+    ASSERT_TRUE(manager_.load("planner", "test/BlockingPlanner"));
     ASSERT_TRUE(ros::service::waitForService("external_command/cancel_command", 10000));
     ASSERT_TRUE(ros::service::waitForService(BlockingPlanner::kService, 10000));
   }
 
-  void TearDown() override { loader_.clear(); }
-
-  bool load(const std::string& name, const std::string& type) {
-    return loader_.load(ros::names::resolve(name), type, {}, {});
-  }
+  void TearDown() override { manager_.clear(); }
 
   /// A plan in work, which ends when its gate is opened.
   struct HeldPlan {
@@ -79,16 +75,11 @@ class Cancel : public testing::Test {
     EXPECT_TRUE(ros::param::get(ros::names::resolve("external_command/vehicle"), vehicle));
     ros::param::set("/other/external_command/vehicle", vehicle);
     const auto planner = planner_;
-    EXPECT_TRUE(load("/other/planner", "test/BlockingPlanner"));
+    EXPECT_TRUE(manager_.load("/other/planner", "test/BlockingPlanner"));
     EXPECT_TRUE(ros::service::waitForService(kOtherService, 10000));
     HeldPlan held = startHeldPlan(1, false, kOtherService);
     planner_ = planner;
     return held;
-  }
-
-  boost::shared_ptr<nodelet::Nodelet> create(const std::string& type) {
-    if (type == "test/BlockingPlanner") return planner_ = boost::make_shared<BlockingPlanner>();
-    return classes_.createInstance(type);
   }
 
   static CancelCommand::Response cancel(std::int64_t command_id) {
@@ -125,10 +116,8 @@ class Cancel : public testing::Test {
     EXPECT_NE(status.message.find("cancelled by cancel_command"), std::string::npos) << status.message;
   }
 
-  pluginlib::ClassLoader<nodelet::Nodelet> classes_{"nodelet", "nodelet::Nodelet"};
   boost::shared_ptr<BlockingPlanner> planner_;
-  nodelet::Loader loader_{boost::function<boost::shared_ptr<nodelet::Nodelet>(const std::string&)>(
-      [this](const std::string& type) { return create(type); })};
+  NodeletManager manager_;
 };
 
 TEST_F(Cancel, EndsAPlanThatPollsItsToken) {
@@ -162,7 +151,7 @@ TEST_F(Cancel, LeavesAPlanAloneWhereANewerCommandIsRefused) {
 
 TEST_F(Cancel, WithdrawsAMotionFromTheTopicThatTheNextOneDoesNotUse) {
   ros::param::set(ros::names::resolve("follower") + "/output_command_name", std::vector<std::string>{"other/command"});
-  ASSERT_TRUE(load("follower", "external_command/PathFollowCommandProcessor"));
+  ASSERT_TRUE(manager_.load("follower", "external_command/PathFollowCommandProcessor"));
   ASSERT_TRUE(ros::service::waitForService("external_command/path_follow", 10000));
   Inbox<PlanningCommand> commands("planning/command");
   Inbox<PlanningCommand> others("other/command");
@@ -179,13 +168,13 @@ TEST_F(Cancel, WithdrawsAMotionFromTheTopicThatTheNextOneDoesNotUse) {
 }
 
 TEST_F(Cancel, LeavesNoActionRunningWhoseProcessorIsUnloaded) {
-  ASSERT_TRUE(load("action", "external_command/ActionCommandProcessor"));
+  ASSERT_TRUE(manager_.load("action", "external_command/ActionCommandProcessor"));
   ASSERT_TRUE(ros::service::waitForService("external_command/action", 10000));
   Action pull_over;
   pull_over.request.command.command = ActionCommand::PULL_OVER;
   ASSERT_TRUE(ros::service::call("external_command/action", pull_over));
   EXPECT_EQ(pull_over.response.status.status, CommandStatus::RUNNING) << pull_over.response.status.message;
-  ASSERT_TRUE(loader_.unload(ros::names::resolve("action")));
+  ASSERT_TRUE(manager_.unload("action"));
   GetCommandStatus asked;
   asked.request.command_id = pull_over.response.status.command_id;
   ASSERT_TRUE(ros::service::call("external_command/command_status", asked));
@@ -248,7 +237,7 @@ TEST_F(Cancel, LeavesAnOlderPlanAloneWhereTheNewerThatWaitsForAThreadHasNoRoute)
 }
 
 TEST_F(Cancel, ByAStopEndsWhatIsPlannedAndWhatWaitsForAThread) {
-  ASSERT_TRUE(load("action", "external_command/ActionCommandProcessor"));
+  ASSERT_TRUE(manager_.load("action", "external_command/ActionCommandProcessor"));
   ASSERT_TRUE(ros::service::waitForService("external_command/action", 10000));
   HeldPlan others = startPlanOfOtherVehicle();
   HeldPlan older = startHeldPlan(7, false);

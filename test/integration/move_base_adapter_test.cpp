@@ -4,12 +4,10 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/GetPlan.h>
-#include <nodelet/loader.h>
 #include <ros/ros.h>
 
 #include <chrono>
 #include <future>
-#include <pluginlib/class_loader.hpp>
 #include <string>
 #include <thread>
 #include <vector>
@@ -17,6 +15,7 @@
 #include "external_command/PlanningCommand.h"
 #include "support/blocking_nodelets.h"
 #include "support/inbox.h"
+#include "support/nodelet_manager.h"
 
 namespace external_command {
 namespace {
@@ -31,30 +30,20 @@ constexpr std::chrono::seconds kLongest(10);
 class MoveBaseAdapterLoaded : public testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_TRUE(load("lane_follow", "test/BlockingLaneFollow"));
-    ASSERT_TRUE(load(kAdapter, "external_command/MoveBaseAdapter"));
+    manager_.provide("test/BlockingLaneFollow", &lane_follow_);
+    ASSERT_TRUE(manager_.load("lane_follow", "test/BlockingLaneFollow"));
+    ASSERT_TRUE(manager_.load(kAdapter, "external_command/MoveBaseAdapter"));
     ASSERT_TRUE(ros::service::waitForService(kService, 10000));
   }
 
   void TearDown() override {
     if (gate_) gate_->open();
-    loader_.clear();
+    manager_.clear();
   }
 
-  bool load(const std::string& name, const std::string& type) {
-    return loader_.load(ros::names::resolve(name), type, {}, {});
-  }
-
-  boost::shared_ptr<nodelet::Nodelet> create(const std::string& type) {
-    if (type == "test/BlockingLaneFollow") return lane_follow_ = boost::make_shared<BlockingLaneFollow>();
-    return classes_.createInstance(type);
-  }
-
-  pluginlib::ClassLoader<nodelet::Nodelet> classes_{"nodelet", "nodelet::Nodelet"};
   boost::shared_ptr<BlockingLaneFollow> lane_follow_;
   std::shared_ptr<TestGate> gate_;
-  nodelet::Loader loader_{boost::function<boost::shared_ptr<nodelet::Nodelet>(const std::string&)>(
-      [this](const std::string& type) { return create(type); })};
+  NodeletManager manager_;
 };
 
 class MakePlan : public MoveBaseAdapterLoaded {
@@ -140,7 +129,7 @@ TEST_F(MakePlan, EndsWhereWhatMakesItIsUnloaded) {
   std::vector<std::future<std::size_t>> asked;
   for (unsigned i = 0; i < kMostInLine; ++i) asked.push_back(ask());
   ASSERT_TRUE(gate_->waitForEntered(1));
-  auto unloaded = std::async(std::launch::async, [this] { return loader_.unload(ros::names::resolve(kAdapter)); });
+  auto unloaded = std::async(std::launch::async, [this] { return manager_.unload(kAdapter); });
   EXPECT_EQ(unloaded.wait_for(std::chrono::seconds(1)), std::future_status::ready)
       << "though nobody opened the gate of the plan in work";
   EXPECT_EQ(gate_->entered(), 1u) << "those that wait are not planned any more";
@@ -156,7 +145,7 @@ TEST_F(MoveBaseGoal, IsDrivenToOnceTheOlderOneHasEnded) {
 }
 
 TEST_F(MoveBaseGoal, ThatWaitsIsNotDrivenToWhereTheAdapterIsUnloaded) {
-  auto unloaded = std::async(std::launch::async, [this] { return loader_.unload(ros::names::resolve(kAdapter)); });
+  auto unloaded = std::async(std::launch::async, [this] { return manager_.unload(kAdapter); });
   EXPECT_EQ(unloaded.wait_for(std::chrono::milliseconds(100)), std::future_status::timeout)
       << "before the one in work has ended";
   gate_->open();

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // A stop gets through whatever the process is busy with, and nothing that was planned before it leaves after it.
 #include <gtest/gtest.h>
-#include <nodelet/loader.h>
 #include <ros/ros.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
 #include <future>
-#include <pluginlib/class_loader.hpp>
 #include <string>
 #include <thread>
 #include <vector>
@@ -21,6 +19,7 @@
 #include "external_command/RoutingResponse.h"
 #include "support/blocking_nodelets.h"
 #include "support/inbox.h"
+#include "support/nodelet_manager.h"
 
 namespace external_command {
 namespace {
@@ -35,28 +34,20 @@ constexpr double kLatest = 0.1;  // [s]
 class Stop : public testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_TRUE(load("action_command_processor", "external_command/ActionCommandProcessor"));
-    ASSERT_TRUE(load("planner", "test/BlockingPlanner"));
-    ASSERT_TRUE(load("blocker", "test/WorkerBlocker"));
+    manager_.provide("test/WorkerBlocker", &blocker_);
+    manager_.provide("test/BlockingPlanner", &planner_);
+    manager_.provide("test/BlockingLaneFollow", &lane_follow_);
+    manager_.provide("test/ThrowingProcessor", [] { return boost::make_shared<ThrowingProcessor>(); });
+    ASSERT_TRUE(manager_.load("action_command_processor", "external_command/ActionCommandProcessor"));
+    ASSERT_TRUE(manager_.load("planner", "test/BlockingPlanner"));
+    ASSERT_TRUE(manager_.load("blocker", "test/WorkerBlocker"));
     ASSERT_TRUE(ros::service::waitForService("external_command/action", 10000));
     ASSERT_TRUE(ros::service::waitForService(BlockingPlanner::kService, 10000));
   }
 
   void TearDown() override {
     if (workers_) workers_->open();
-    loader_.clear();
-  }
-
-  bool load(const std::string& name, const std::string& type) {
-    return loader_.load(ros::names::resolve(name), type, {}, {});
-  }
-
-  boost::shared_ptr<nodelet::Nodelet> create(const std::string& type) {
-    if (type == "test/WorkerBlocker") return blocker_ = boost::make_shared<WorkerBlocker>();
-    if (type == "test/BlockingPlanner") return planner_ = boost::make_shared<BlockingPlanner>();
-    if (type == "test/BlockingLaneFollow") return lane_follow_ = boost::make_shared<BlockingLaneFollow>();
-    if (type == "test/ThrowingProcessor") return boost::make_shared<ThrowingProcessor>();
-    return classes_.createInstance(type);
+    manager_.clear();
   }
 
   /// Occupies each worker thread of the manager, and queues more for each.
@@ -128,13 +119,11 @@ class Stop : public testing::Test {
     EXPECT_EQ(workers_->entered(), std::max(1u, std::thread::hardware_concurrency())) << "the workers were blocked";
   }
 
-  pluginlib::ClassLoader<nodelet::Nodelet> classes_{"nodelet", "nodelet::Nodelet"};
   boost::shared_ptr<WorkerBlocker> blocker_;
   boost::shared_ptr<BlockingPlanner> planner_;
   boost::shared_ptr<BlockingLaneFollow> lane_follow_;
   std::shared_ptr<TestGate> workers_;
-  nodelet::Loader loader_{boost::function<boost::shared_ptr<nodelet::Nodelet>(const std::string&)>(
-      [this](const std::string& type) { return create(type); })};
+  NodeletManager manager_;
 };
 
 TEST_F(Stop, IsAnsweredAndSentWhileEveryWorkerIsBlockedAndAPlanIsRunning) {
@@ -249,8 +238,8 @@ TEST_F(Stop, KeepsWhatWaitsForAThreadFromBeingSent) {
 }
 
 TEST_F(Stop, KeepsWhatWaitsInTheLineOfLegacyRequestsFromBeingSent) {
-  ASSERT_TRUE(load("lane_follow", "test/BlockingLaneFollow"));
-  ASSERT_TRUE(load("old_routing_adapter", "external_command/OldRoutingAdapter"));
+  ASSERT_TRUE(manager_.load("lane_follow", "test/BlockingLaneFollow"));
+  ASSERT_TRUE(manager_.load("old_routing_adapter", "external_command/OldRoutingAdapter"));
   Inbox<PlanningCommand> commands("planning/command");
   Inbox<RoutingResponse> responses("routing_response");
   ros::NodeHandle nh;
@@ -340,7 +329,7 @@ TEST_F(Stop, LeavesTheRunningCommandAloneWhereTheVehicleIsElsewhereThanTheNewPat
 }
 
 TEST_F(Stop, GetsThroughThoughCallbacksOfAnotherProcessorThrow) {
-  ASSERT_TRUE(load("thrower", "test/ThrowingProcessor"));
+  ASSERT_TRUE(manager_.load("thrower", "test/ThrowingProcessor"));
   ros::NodeHandle nh;
   ros::Publisher messages = nh.advertise<CommandStatus>(ThrowingProcessor::kTopic, 10);
   while (messages.getNumSubscribers() == 0) std::this_thread::yield();
