@@ -32,8 +32,8 @@ double DrivingCost::ofCloseness(const Pose2d& from, const SteeringWord& word) co
   return closeness_.price > 0.0 ? closeness_.price * nearLength(from, arcs, arcs + word.size) : 0.0;
 }
 
-double DrivingCost::of(const Pose2d& from, const Arcs& arcs, int gear_after) const {
-  return costOf(arcs, of_arcs_, gear_after) + closeness_.price * nearLength(from, arcs);
+double DrivingCost::of(const Pose2d& from, const Arcs& arcs, const Junctions& junctions) const {
+  return costOf(arcs, of_arcs_, junctions) + closeness_.price * nearLength(from, arcs);
 }
 
 double DrivingCost::nearLength(const Pose2d& from, const Arcs& arcs) const {

@@ -26,7 +26,7 @@ class DrivingCost {
   double ofCloseness(const Pose2d& from, const SteeringWord& word) const;
 
   /// Of the whole path.
-  double of(const Pose2d& from, const Arcs& arcs, int gear_after) const;
+  double of(const Pose2d& from, const Arcs& arcs, const Junctions& junctions) const;
 
   /// Length of a path beside obstacles: all of it where they are at the margin, less where they are farther [m].
   double nearLength(const Pose2d& from, const Arcs& arcs) const;

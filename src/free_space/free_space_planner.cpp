@@ -13,15 +13,15 @@
 #include "free_space/ompl/first_path.h"
 #include "free_space/search/narrow_passage.h"
 #include "free_space/search/no_way.h"
-#include "last_check.h"
 #include "motion/collision_probe.h"
-#include "steering_ramps.h"
+#include "path_finisher.h"
 
 namespace external_command {
 
 namespace {
 
 constexpr double kMaxDistance = 10'000.0;    ///< between start and goals [m]
+constexpr double kMostBent = 100.0;          ///< of a path before the start or after a goal [m]
 constexpr std::size_t kFirstPatience = 150;  ///< trials that make a first path out of what the search found
 constexpr double kFinishing = 3.0;        ///< times what the first path took is kept for the ramps of the improved one
 constexpr double kLeastFinishing = 0.02;  ///< share of time_budget that is kept for them
@@ -54,12 +54,13 @@ std::string nameOf(std::size_t goal, const std::vector<Pose2d>& goals) {
 class Planning {
  public:
   Planning(const VehicleParams& vehicle, const FreeSpaceParams& params, const Pose2d& start,
-           const std::vector<Pose2d>& goals, const Region& region, const CancelToken& cancel)
+           const std::vector<Pose2d>& goals, const Region& region, const EndStates& ends, const CancelToken& cancel)
       : begin_(Clock::now()),
         vehicle_(vehicle),
         params_(params),
         origin_(start.position()),
         start_(local(start)),
+        ends_(local(ends)),
         stop_(cancel, after(begin_, params.time_budget)),
         index_(vehicle, params.margin, region, origin_, local(start, goals), [this] { throwIfStopped(); }),
         scene_{index_, vehicle.min_turning_radius, {params.gear_change_cost, 1.0, params.reverse_factor}},
@@ -119,6 +120,19 @@ class Planning {
     return poses;
   }
 
+  /// With curvatures that the vehicle can drive.
+  EndStates local(EndStates ends) const {
+    const auto convert = [&](EndState* state) {
+      state->kappa = std::clamp(state->kappa, -vehicle_.maxKappa(), vehicle_.maxKappa());
+      state->bend_from = local(state->bend_from);
+    };
+    if (ends.start) convert(&*ends.start);
+    for (std::optional<EndState>& state : ends.goals) {
+      if (state) convert(&*state);
+    }
+    return ends;
+  }
+
   void tellEasedMargins(const Pose2d& start, const std::vector<Pose2d>& goals) {
     for (const EasedMargin& eased : index_.easedMargins()) {
       const bool is_start = eased.pose == 0;
@@ -139,9 +153,17 @@ class Planning {
         blocked += (blocked.empty() ? "" : "; ") + described(nameOf(i, goals), goals[i], *collision);
         continue;
       }
-      approaches_.push_back({i, {start_, goal, 0}});
+      approaches_.push_back({i, {start_, goal, junctionsOf(i)}});
     }
     if (approaches_.empty()) throw GoalBlocked(blocked);
+  }
+
+  Junctions junctionsOf(std::size_t goal) const {
+    Junctions junctions;
+    if (ends_.start) junctions.before = gearOf(*ends_.start), junctions.kappa_before = ends_.start->kappa;
+    const std::optional<EndState> after = ends_.goals.empty() ? std::nullopt : ends_.goals[goal];
+    if (after) junctions.after = gearOf(*after), junctions.kappa_after = after->kappa;
+    return junctions;
   }
 
   /// What the search covers: all obstacles and room to turn around them.
@@ -237,7 +259,7 @@ class Planning {
       WorkBudget budget(kUnlimited, stop_);
       better = PathImprover(scene_, cost_, approach.query, params_.seed).improve(arcs, kFirstPatience, &budget);
     }
-    const double cost = cost_.of(start_, better, approach.query.gear_after);
+    const double cost = cost_.of(start_, better, approach.query.junctions);
     if (cost < best->cost) *best = {&approach, better, cost};
   }
 
@@ -252,61 +274,20 @@ class Planning {
     std::vector<std::future<Arcs>> others;
     for (unsigned i = 1; i < params_.threads; ++i) others.push_back(std::async(std::launch::async, improve, i));
     Solution best{first.approach, improve(0), 0.0};
-    best.cost = cost_.of(start_, best.arcs, query.gear_after);
+    best.cost = cost_.of(start_, best.arcs, query.junctions);
     for (std::future<Arcs>& other : others) {
       const Arcs arcs = other.get();
-      const double cost = cost_.of(start_, arcs, query.gear_after);
+      const double cost = cost_.of(start_, arcs, query.junctions);
       if (cost < best.cost) best.arcs = arcs, best.cost = cost;
     }
     stop_.cancel().throwIfCancelled();
     return best;
   }
 
-  /// The solution as a path in the local frame, checked; without ramps where these fail the check.
-  /// @throws NoPath  it fails the last check.
   FreeSpacePlan finish(const Solution& solution) const {
-    const Arcs arcs = merged(solution.arcs);
-    if (params_.continuous_curvature) {
-      if (auto result = checkedPlan(solution, withRamps(arcs)); result.fault.empty()) return std::move(result.plan);
-    }
-    CheckedPlan plain = checkedPlan(solution, arcs);
-    if (!plain.fault.empty()) throw NoPath("the path found failed its last check: " + plain.fault);
-    return std::move(plain.plan);
-  }
-
-  struct CheckedPlan {
-    FreeSpacePlan plan;
-    std::string fault;  ///< empty where there is none
-  };
-
-  CheckedPlan checkedPlan(const Solution& solution, const Arcs& arcs) const {
-    FreeSpacePlan result;
-    result.path = sampleArcs(start_, arcs, params_.spacing);
-    const PathDemands demands{start_, solution.approach->query.goal, vehicle_.maxKappa(), params_.spacing};
-    const LastCheck check = checkPath(result.path, demands, index_);
-    result.goal_index = solution.approach->goal_index;
-    result.cost = cost_.of(start_, arcs, 0);
-    result.length = lengthOf(arcs);
-    result.gear_changes = gearChangesOf(arcs);
-    result.wheel_turns = wheelTurnsOf(arcs, scene_.radius);
-    result.near_length = cost_.nearLength(start_, arcs);
-    result.min_clearance = check.min_clearance;
-    result.reverse_length = reverseLength(result.path);
-    return {std::move(result), check.fault.value_or("")};
-  }
-
-  Arcs withRamps(const Arcs& arcs) const {
-    const auto keepsMargin = [&](const Pose2d& from, const Arcs& ramped) {
-      stop_.cancel().throwIfCancelled();
-      if (stop_.isReached()) return false;
-      Pose2d begin = from;
-      return std::all_of(ramped.begin(), ramped.end(), [&](const ArcSegment& arc) {
-        const Pose2d here = begin;
-        begin = advance(begin, arc);
-        return index_.keepsMargin(here, arc);
-      });
-    };
-    return withSteeringRamps(start_, arcs, vehicle_, params_.manoeuvre_speed, keepsMargin);
+    const Approach& approach = *solution.approach;
+    return PathFinisher(scene_, cost_, vehicle_, params_, ends_, stop_)
+        .finish({solution.arcs, approach.goal_index, approach.query});
   }
 
   /// Takes the better solution, unless it fails the last check, or time runs out before all its ramps are made: then
@@ -338,6 +319,7 @@ class Planning {
   const FreeSpaceParams& params_;
   Point2d origin_;
   Pose2d start_;
+  EndStates ends_;
   StopCondition stop_;
   FootprintIndex index_;
   Scene scene_;
@@ -346,7 +328,12 @@ class Planning {
   std::vector<Warning> warnings_;
 };
 
-void requireUsable(const Pose2d& start, const std::vector<Pose2d>& goals) {
+bool isUsable(const std::optional<EndState>& state) {
+  return !state || (std::isfinite(state->kappa) && state->bend_from.isFinite() && state->bend_length >= 0.0 &&
+                    state->bend_length <= kMostBent);
+}
+
+void requireUsable(const Pose2d& start, const std::vector<Pose2d>& goals, const EndStates& ends) {
   if (!start.isFinite()) throw InvalidRequest("the start is not finite");
   if (goals.empty()) throw InvalidRequest("there is no goal; give at least one");
   for (std::size_t i = 0; i < goals.size(); ++i) {
@@ -356,6 +343,15 @@ void requireUsable(const Pose2d& start, const std::vector<Pose2d>& goals) {
       throw InvalidRequest(text(nameOf(i, goals), " ", at(goals[i]), " is ", metres(distance), " from the start ",
                                 at(start), "; the limit is ", metres(kMaxDistance)));
     }
+  }
+  if (!isUsable(ends.start) || !std::all_of(ends.goals.begin(), ends.goals.end(), isUsable)) {
+    throw InvalidRequest(
+        text("what is told of the paths before the start and after the goals is not finite, or may be bent",
+             " for more than ", metres(kMostBent)));
+  }
+  if (!ends.goals.empty() && ends.goals.size() != goals.size()) {
+    throw InvalidRequest(text("there are ", goals.size(), " goals, and ways to go on from ", ends.goals.size(),
+                              " of them; give one for each, or none"));
   }
 }
 
@@ -368,10 +364,10 @@ FreeSpacePlanner::FreeSpacePlanner(const VehicleParams& vehicle, const FreeSpace
 }
 
 FreeSpacePlan FreeSpacePlanner::plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region,
-                                     const CancelToken& cancel) const {
-  requireUsable(start, goals);
+                                     const CancelToken& cancel, const EndStates& ends) const {
+  requireUsable(start, goals, ends);
   cancel.throwIfCancelled();
-  return Planning(vehicle_, params_, start, goals, region, cancel).run();
+  return Planning(vehicle_, params_, start, goals, region, ends, cancel).run();
 }
 
 }  // namespace external_command

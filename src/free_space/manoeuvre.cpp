@@ -12,12 +12,21 @@ constexpr double kLongArc = 1.0;  ///< whose middle is worth a look of its own [
 
 }  // namespace
 
-double costOf(const Arcs& arcs, const CostModel& cost, int gear_after) {
-  double total = 0.0;
+double costOf(const Arcs& arcs, const CostModel& cost, const Junctions& junctions) {
+  double total = costBefore(arcs, cost, junctions) + costAfter(arcs, cost, junctions);
   for (const ArcSegment& arc : arcs) total += cost.ofArc(arc.length);
   for (std::size_t i = 1; i < arcs.size(); ++i) total += cost.between(arcs[i - 1], arcs[i]);
-  if (!arcs.empty() && gearOf(arcs.back()) == -gear_after) total += cost.gear_change_cost;
   return total;
+}
+
+double costBefore(const Arcs& arcs, const CostModel& cost, const Junctions& junctions) {
+  if (arcs.empty() || junctions.before == 0) return 0.0;
+  return cost.between({static_cast<double>(junctions.before), junctions.kappa_before}, arcs.front());
+}
+
+double costAfter(const Arcs& arcs, const CostModel& cost, const Junctions& junctions) {
+  if (arcs.empty() || junctions.after == 0) return 0.0;
+  return cost.between(arcs.back(), {static_cast<double>(junctions.after), junctions.kappa_after});
 }
 
 double lengthOf(const Arcs& arcs) {

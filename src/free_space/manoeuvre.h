@@ -22,14 +22,17 @@ struct Scene {
 struct Query {
   Pose2d start;
   Pose2d goal;
-  int gear_after = 0;   ///< in which the vehicle goes on at the goal; 0: it stops there
-  int gear_before = 0;  ///< in which it arrives at the start; 0: it stands there
+  Junctions junctions = {};  ///< gear 0: the vehicle stands at the start, or stops at the goal
 };
 
 inline int gearOf(const ArcSegment& arc) { return arc.length < 0.0 ? -1 : 1; }
 
-/// Cost of the arcs with gear changes and steering between them, and with the gear change before `gear_after`.
-double costOf(const Arcs& arcs, const CostModel& cost, int gear_after = 0);
+/// Cost of the arcs with gear changes and steering between them and at the junctions.
+double costOf(const Arcs& arcs, const CostModel& cost, const Junctions& junctions = {});
+
+/// Of going over from a path that arrives so to the arcs, and of going on from them.
+double costBefore(const Arcs& arcs, const CostModel& cost, const Junctions& junctions);
+double costAfter(const Arcs& arcs, const CostModel& cost, const Junctions& junctions);
 
 double lengthOf(const Arcs& arcs);
 unsigned gearChangesOf(const Arcs& arcs);

@@ -11,7 +11,6 @@ namespace external_command {
 
 namespace {
 
-constexpr double kStep = 0.05;         ///< of a ramp, that is driven as one arc [m]
 constexpr double kRoom = 0.9;          ///< share of the shorter of two arcs that the ramp between them may take
 constexpr double kShortArc = 0.15;     ///< arc that is left out for the sake of its neighbours' ramps [m]
 constexpr double kShorter = 0.6;       ///< each attempt's ramps, as share of those of the one before
@@ -26,13 +25,19 @@ constexpr double kKappaWeight = 1e-3;  ///< of changes of curvature beside chang
 
 using Error = Eigen::Vector3d;
 
+/// Of curvatures and ramps.
+struct Limits {
+  double max_kappa;  ///< [1/m]
+  double slope;      ///< of the curvature on a ramp [1/m^2]
+  double step;       ///< of a ramp, that is one arc [m]
+};
+
 /// Arcs with ramps of given lengths between them, bent back to where the plain ones end.
 class Ramps {
  public:
   /// @param arcs  that end about at `goal`.
-  /// @param slope  of the curvature on a ramp [1/m^2].
-  Ramps(const Pose2d& from, const Pose2d& goal, double max_kappa, double slope, const Arcs& arcs)
-      : from_(from), goal_(goal), max_kappa_(max_kappa), slope_(slope), arcs_(arcs), lengths_(arcs.size(), 0.0) {}
+  Ramps(const Pose2d& from, const Pose2d& goal, const Limits& limits, const Arcs& arcs)
+      : from_(from), goal_(goal), limits_(limits), arcs_(arcs), lengths_(arcs.size(), 0.0) {}
 
   const Pose2d& from() const { return from_; }
 
@@ -48,7 +53,7 @@ class Ramps {
 
   double wantedLength(std::size_t i) const {
     if (gearOf(arcs_[i]) != gearOf(arcs_[i + 1])) return 0.0;
-    const double wanted = std::abs(arcs_[i + 1].kappa - arcs_[i].kappa) / slope_;
+    const double wanted = std::abs(arcs_[i + 1].kappa - arcs_[i].kappa) / limits_.slope;
     return std::min(wanted, kRoom * std::min(std::abs(arcs_[i].length), std::abs(arcs_[i + 1].length)));
   }
 
@@ -85,7 +90,7 @@ class Ramps {
     const double gear = gearOf(arcs_[i]), before = i > 0 ? lengths_[i - 1] / 2.0 : 0.0, after = lengths_[i] / 2.0;
     visit(ArcSegment{arcs_[i].length - gear * (before + after), arcs_[i].kappa});
     if (lengths_[i] <= 0.0) return;
-    const int steps = std::max(kLeastSteps, static_cast<int>(std::ceil(lengths_[i] / kStep)));
+    const int steps = std::max(kLeastSteps, static_cast<int>(std::ceil(lengths_[i] / limits_.step)));
     const double change = arcs_[i + 1].kappa - arcs_[i].kappa;
     for (int k = 0; k < steps; ++k) {
       visit(ArcSegment{gear * lengths_[i] / steps, arcs_[i].kappa + change * (k + 0.5) / steps});
@@ -107,7 +112,8 @@ class Ramps {
     return errorOf(pose);
   }
 
-  /// The least change of lengths and curvatures that takes the error out, to first order.
+  /// The least change of lengths and curvatures that takes the error out, to first order, and leaves both within
+  /// bounds.
   Eigen::VectorXd correction() {
     const std::size_t count = arcs_.size();
     std::vector<Pose2d> begins{from_};
@@ -129,10 +135,36 @@ class Ramps {
         weights[static_cast<Eigen::Index>(column)] = weight;
       };
       probe(&arcs_[i].length, std::abs(arcs_[i].length), i);
-      probe(&arcs_[i].kappa, kKappaWeight * max_kappa_, count + i);
+      probe(&arcs_[i].kappa, kKappaWeight * limits_.max_kappa, count + i);
     }
-    const Eigen::MatrixXd weighted = weights.asDiagonal() * slopes.transpose();
-    return -weighted * (slopes * weighted).ldlt().solve(error);
+    while (true) {
+      const Eigen::MatrixXd weighted = weights.asDiagonal() * slopes.transpose();
+      const Eigen::VectorXd change = -weighted * (slopes * weighted).ldlt().solve(error);
+      if (!fixOutOfBounds(change, &weights)) return change;
+    }
+  }
+
+  /// Sets the weights of what would be changed beyond its bounds to 0. @return  whether there was any.
+  bool fixOutOfBounds(const Eigen::VectorXd& change, Eigen::VectorXd* weights) const {
+    bool is_any = false;
+    const auto count = static_cast<Eigen::Index>(arcs_.size());
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const ArcSegment& arc = arcs_[static_cast<std::size_t>(i)];
+      const bool is_short = gearOf(arc) * (arc.length + change[i]) < leastLength(i);
+      const bool is_tight = std::abs(arc.kappa + change[count + i]) > limits_.max_kappa;
+      for (const auto& [is_out, column] : {std::pair(is_short, i), std::pair(is_tight, count + i)}) {
+        if (!is_out || (*weights)[column] == 0.0) continue;
+        (*weights)[column] = 0.0;
+        is_any = true;
+      }
+    }
+    return is_any;
+  }
+
+  /// With nothing between the ramps at both ends [m].
+  double leastLength(Eigen::Index arc) const {
+    const auto i = static_cast<std::size_t>(arc);
+    return (i > 0 ? lengths_[i - 1] / 2.0 : 0.0) + lengths_[i] / 2.0;
   }
 
   void apply(const Eigen::VectorXd& change) {
@@ -140,16 +172,13 @@ class Ramps {
     for (Eigen::Index i = 0; i < count; ++i) {
       ArcSegment& arc = arcs_[static_cast<std::size_t>(i)];
       const double gear = gearOf(arc);
-      const double before = i > 0 ? lengths_[static_cast<std::size_t>(i - 1)] / 2.0 : 0.0;
-      const double least = before + lengths_[static_cast<std::size_t>(i)] / 2.0;
-      arc.length = gear * std::max(gear * (arc.length + change[i]), least);
-      arc.kappa = std::clamp(arc.kappa + change[count + i], -max_kappa_, max_kappa_);
+      arc.length = gear * std::max(gear * (arc.length + change[i]), leastLength(i));
+      arc.kappa = std::clamp(arc.kappa + change[count + i], -limits_.max_kappa, limits_.max_kappa);
     }
   }
 
   Pose2d from_, goal_;
-  double max_kappa_;
-  double slope_;
+  Limits limits_;
   Arcs arcs_;
   std::vector<double> lengths_;  ///< of the ramp after each arc [m]
 };
@@ -206,28 +235,41 @@ std::vector<Arcs> partsOf(const Arcs& arcs) {
   return parts;
 }
 
-Arcs withRamps(const Pose2d& from, const Arcs& arcs, double max_kappa, double slope, const CurveCheck& is_allowed) {
-  const Pose2d goal = endOf(from, arcs);
+struct Part {
+  Pose2d begin, end;
+  Arcs arcs;  ///< from about the one to about the other
+};
+
+/// @return  nullopt where the end cannot be met.
+std::optional<Arcs> withRamps(const Part& part, const Limits& limits, const CurveCheck& is_allowed) {
   double share = 1.0;
   for (int attempt = 1; attempt <= kAttempts; ++attempt, share *= kShorter) {
-    Ramps ramps(from, goal, max_kappa, slope, withoutShortArcs(arcs, share * kShortArc));
+    Ramps ramps(part.begin, part.end, limits, withoutShortArcs(part.arcs, share * kShortArc));
     ramps.setLengths(share);
     if (auto result = allowed(&ramps, is_allowed)) return share < 1.0 ? grown(ramps, *result, is_allowed) : *result;
   }
-  return arcs;
+  return std::nullopt;
 }
 
 }  // namespace
 
-Arcs withSteeringRamps(const Pose2d& from, const Arcs& arcs, const VehicleParams& vehicle, double speed,
-                       const CurveCheck& is_allowed) {
-  const double slope = vehicle.max_steering_rate / (speed * vehicle.wheelbase);
+std::optional<Arcs> withSteeringRamps(const Pose2d& from, const Arcs& arcs, const ExactEnds& ends,
+                                      const VehicleParams& vehicle, const RampShape& shape,
+                                      const CurveCheck& is_allowed) {
+  const Limits limits{vehicle.maxKappa(), vehicle.max_steering_rate / (shape.speed * vehicle.wheelbase), shape.step};
   Arcs result;
   Pose2d begin = from;
-  for (const Arcs& part : partsOf(arcs)) {
-    const Arcs ramped = withRamps(begin, part, vehicle.maxKappa(), slope, is_allowed);
-    result.insert(result.end(), ramped.begin(), ramped.end());
-    begin = endOf(begin, part);
+  const std::vector<Arcs> parts = partsOf(arcs);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    Part part{begin, endOf(begin, parts[i]), parts[i]};
+    begin = part.end;
+    const bool is_first = i == 0 && ends.begin, is_last = i + 1 == parts.size() && ends.end;
+    if (is_first) part.begin = *ends.begin;
+    if (is_last) part.end = *ends.end;
+    const std::optional<Arcs> ramped = withRamps(part, limits, is_allowed);
+    if (!ramped && (is_first || is_last)) return std::nullopt;
+    const Arcs& driven = ramped ? *ramped : part.arcs;
+    result.insert(result.end(), driven.begin(), driven.end());
   }
   return result;
 }

@@ -108,6 +108,8 @@ void PreciseParkingCommandProcessor::processSpecialCommand(const PreciseParkingC
   const Pose2d spot = spotOf(command);
   const Direction into = command.parking_inwards ? Direction::kForward : Direction::kReverse;
   const Pose2d before = compose(spot, {command.parking_inwards ? -straight_last_ : straight_last_, 0.0, 0.0});
+  EndState straight_on;
+  straight_on.direction = into;
   const Polygon& area = areaOf(command).polygon;
 
   const Pose2d entry = plan->path.empty() ? plan->start.pose() : plan->path.back().pose();
@@ -124,13 +126,14 @@ void PreciseParkingCommandProcessor::processSpecialCommand(const PreciseParkingC
   }
   if (plan->path.empty()) {
     plan->scene.start = entry;
-    planner_->append(planner_->plan(entry, {before}, region, deadline, cancel, plan->scene), plan);
+    const EndStates ends{std::nullopt, {straight_on}};
+    planner_->append(planner_->plan(entry, {before}, region, deadline, cancel, plan->scene, ends), plan);
     showRegion(region, &plan->scene);
   } else {
     if (!command.is_start_pose_set) {
       leaveParkingPlace(context(), plan->start.pose(), *planner_, deadline.part(0.5), cancel, plan);
     }
-    leaveRouteFor({before}, region, *planner_, deadline, cancel, plan);
+    leaveRouteFor({before}, {straight_on}, region, *planner_, deadline, cancel, plan);
   }
   plan->path = join(plan->path, last, context().params().vehicle);
   const double clearance = checker.minClearance(last);

@@ -225,7 +225,7 @@ void ValetParkingCommandProcessor::park(const ValetParkingCommand& command, cons
   const std::vector<Pose2d> goals = freePosesIn(space, *plan, cancel);
   const Region region = planner_->regionOf(surfaceWith(map, spot.placeFor(goals), plan->path.back().pose(), cancel));
   try {
-    leaveRouteFor(goals, region, *planner_, deadline, cancel, plan);
+    leaveRouteFor(goals, {}, region, *planner_, deadline, cancel, plan);
   } catch (const GoalBlocked& error) {
     throw GoalBlocked(text("the vehicle does not fit into parking space ", space.id, ": ", error.what()));
   }

@@ -289,6 +289,10 @@ TEST(FreeSpacePlanner, SaysSoonThatNothingLeadsOutOfARoom) {
 TEST(FreeSpacePlanner, RefusesARequestWithoutGoalOrWithNumbersThatAreNone) {
   const FreeSpacePlanner planner(smallCar(), quickParams());
   EXPECT_THROW(planner.plan({0, 0, 0}, {}, Region(), {}), InvalidRequest);
+  EXPECT_THROW(planner.plan({0, 0, 0}, {{1, 1, 1}}, Region(), {}, {EndState{Direction::kForward, NAN, {}, 0.0}, {}}),
+               InvalidRequest);
+  EXPECT_THROW(planner.plan({0, 0, 0}, {{1, 1, 1}, {2, 2, 2}}, Region(), {}, {std::nullopt, {EndState{}}}),
+               InvalidRequest);
   EXPECT_THROW(planner.plan({0, std::nan(""), 0}, {{1, 1, 1}}, Region(), {}), InvalidRequest);
   EXPECT_THROW(planner.plan({0, 0, 0}, {{1, 1, INFINITY}}, Region(), {}), InvalidRequest);
   EXPECT_THROW(planner.plan({0, 0, 0}, {{1e6, 0, 0}}, Region(), {}), InvalidRequest);
@@ -366,6 +370,28 @@ TEST(FreeSpaceParams, NameTheKeyThatIsOutOfRange) {
   params = {};
   params.threads = 0;
   EXPECT_THROW(FreeSpacePlanner(smallCar(), params), InvalidParameter);
+}
+
+TEST(FreeSpacePlanner, PaysForTheGearChangesAtItsEndsWhereItDoesNotStandThere) {
+  const FreeSpaceParams params = quickParams();
+  const FreeSpacePlanner planner(smallCar(), params);
+  const Pose2d behind{-3.0, 0.0, 0.0};
+  const auto costWith = [&](const EndStates& ends) { return planner.plan({}, {behind}, Region(), {}, ends).cost; };
+  const double standing = costWith({});
+  EXPECT_NEAR(standing, 3.0 * params.reverse_factor, 1e-3);
+  EXPECT_NEAR(costWith({EndState{}, {}}), standing + params.gear_change_cost, 1e-3);
+  EXPECT_NEAR(costWith({EndState{}, {EndState{}}}), standing + 2.0 * params.gear_change_cost, 1e-3);
+  EXPECT_NEAR(costWith({EndState{Direction::kReverse, 0.0, {}, 0.0}, {EndState{Direction::kReverse, 0.0, {}, 0.0}}}),
+              standing, 1e-3);
+}
+
+TEST(FreeSpacePlanner, BeginsInTheGearInWhichTheVehicleArrives) {
+  const FreeSpacePlanner planner(smallCar(), quickParams());
+  const Pose2d turned{0.0, 0.0, 0.8};
+  for (const Direction direction : {Direction::kForward, Direction::kReverse}) {
+    const Path path = planner.plan({}, {turned}, Region(), {}, {EndState{direction, 0.0, {}, 0.0}, {}}).path;
+    EXPECT_EQ(path[1].direction, direction);
+  }
 }
 
 }  // namespace

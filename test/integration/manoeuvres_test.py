@@ -88,6 +88,13 @@ class ManoeuvresTest(unittest.TestCase):
             rate = abs(turned) * 0.5 * (a.speed + b.speed) / (b.s - a.s)
             self.assertLess(rate, 1.05 * vehicle["max_steering_rate"], "at %.1f m" % a.s)
 
+    def assert_steers_gradually_where_it_leaves_the_lanes(self, path):
+        """The points of a manoeuvre are much closer together than those of lanes."""
+        steps = list(zip(path.points, path.points[1:]))
+        before, after = next((a, b) for a, b in steps if b.s - a.s < 0.2)
+        self.assertEqual(before.direction, after.direction)
+        self.assertLess(abs(after.kappa - before.kappa), 0.05, "at %.1f m" % before.s)
+
     def assert_running(self, answer):
         self.assertEqual(answer.status.status, CommandStatus.RUNNING, support.describe(answer.status))
         return answer.status.command_id
@@ -176,6 +183,7 @@ class ManoeuvresTest(unittest.TestCase):
                 self.assertGreater(answer.report.min_clearance, 0.0)
                 self.assertGreater(answer.report.near_length, 0.0, "a space is hardly wider than the vehicle")
                 self.assert_wheels_follow(answer.path)
+                self.assert_steers_gradually_where_it_leaves_the_lanes(answer.path)
 
     def test_parks_and_leaves_the_space_again(self):
         self.drive("apollo", self.valet("n_out_5"))
@@ -202,6 +210,7 @@ class ManoeuvresTest(unittest.TestCase):
                 self.assertEqual(answer.status.status, CommandStatus.FINISHED, support.describe(answer.status))
                 self.assert_ends_at(answer.path, CHARGING_SPOT)
                 self.assert_wheels_follow(answer.path)
+                self.assert_steers_gradually_where_it_leaves_the_lanes(answer.path)
                 self.assertEqual(answer.path.points[-1].direction, gear)
                 self.assertTrue(answer.report.lane_ids)
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,25 @@ struct FreeSpacePlan {
   unsigned first_path_gear_changes = 0;
   std::string planner;                ///< FreeSpaceParams::planner
   std::size_t goal_index = 0;         ///< which of the goals it reaches
+  bool begins_before = false;         ///< the path begins at EndState::bend_from, not at the start
+  bool ends_beyond = false;           ///< it ends at EndState::bend_from, not at the goal
   std::vector<std::string> warnings;  ///< the start or that goal is nearer to an obstacle than the margin
+};
+
+/// How the vehicle drives where another path leads up to an end of the planned one, or on from it.
+struct EndState {
+  Direction direction = Direction::kForward;
+  double kappa = 0.0;  ///< of the other path there [1/m]
+  /// A pose on the other path up to which it may be bent so that steering is gradual: what lies between that and the
+  /// end becomes part of the planned path. Of nearly the same curvature.
+  Pose2d bend_from = {};
+  double bend_length = 0.0;  ///< from there to the end [m]; 0: the other path stays as it is
+};
+
+struct EndStates {
+  std::optional<EndState> start = std::nullopt;  ///< unset: the vehicle stands there
+  /// One for each goal, unset where the vehicle stops there; empty: it stops at each.
+  std::vector<std::optional<EndState>> goals = {};
 };
 
 /// Plans a path for a car-like vehicle from pose to pose inside a region. Thread-safe: const, no shared state.
@@ -42,15 +61,18 @@ class FreeSpacePlanner {
   /// within 1 mm and 0.01 degrees; checked once more, finely and exactly, before it is returned. Its points are at most
   /// `spacing` apart, and between two neighbours curvature and gear are constant up to the rounding of the spacing.
   /// A start or goal that is nearer to an obstacle than the margin is left or reached with a smaller margin nearby.
-  /// @throws InvalidRequest   a pose is not finite, there is no goal, or start and goals lie over 10 km apart.
+  /// @param ends  what leads up to the start, and on from the goals: a gear change there is paid for; without one,
+  ///              steering is gradual there too, where there is room.
+  /// @throws InvalidRequest   a number is not finite, there is no goal, start and goals lie over 10 km apart, or `ends`
+  ///                          names some of the goals only.
   /// @throws StartBlocked     the bare footprint collides at the start; the text says with what and by how much.
   /// @throws GoalBlocked      it does at every goal.
-  /// @throws NoPath           a gap or a bend is too tight for the vehicle, the search has shown that there is no path at
-  ///                          its finest resolution, or it used its iterations; the text says which.
+  /// @throws NoPath           a gap or a bend is too tight for the vehicle, the search has shown that there is no path
+  ///                          at its finest resolution, or it used its iterations; the text says which.
   /// @throws PlanningTimeout  time_budget ran out first.
   /// @throws Cancelled        `cancel` was raised; noticed within a few milliseconds.
   FreeSpacePlan plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region,
-                     const CancelToken& cancel) const;
+                     const CancelToken& cancel, const EndStates& ends = {}) const;
 
  private:
   VehicleParams vehicle_;

@@ -33,7 +33,7 @@ AnytimeImprover::AnytimeImprover(const Scene& scene, const DrivingCost& cost, co
       improver_(scene, cost, query, random_.bits()) {}
 
 Arcs AnytimeImprover::improve(const Arcs& arcs, WorkBudget* budget) {
-  const auto costs = [&](const Arcs& path) { return cost_.of(query_.start, path, query_.gear_after); };
+  const auto costs = [&](const Arcs& path) { return cost_.of(query_.start, path, query_.junctions); };
   Arcs best = improver_.improve(arcs, kFirstPatience, budget);
   if (budget->isUsedUp() || best.empty()) return best;
   TwoWaySearch search(scene_, query_, area_);
@@ -64,13 +64,13 @@ Arcs AnytimeImprover::windowSearched(const Arcs& arcs, WorkBudget* budget) {
   const Track::Place from = track.arriving(begin), to = track.leaving(begin + length);
   std::vector<Point2d> points{from.pose.position(), to.pose.position()};
   for (double s = begin; s < begin + length; s += scene_.radius) points.push_back(track.leaving(s).pose.position());
-  TwoWaySearch search(scene_, {from.pose, to.pose, to.gear, from.gear},
+  TwoWaySearch search(scene_, {from.pose, to.pose, {from.gear, to.gear, from.kappa, to.kappa}},
                       searchBox(points, kAround * scene_.radius, area_));
   const TwoWaySearch::Variant variant{0, random_.uniform(1.0, 1.6), random_.uniform(0.7, 1.3), random_.uniform()};
   const TwoWaySearch::Limits limits{kWindowSteps, to.cost - from.cost, [&] { return !budget->spend(); }};
   if (search.run(variant, limits) != TwoWaySearch::Outcome::kFound) return arcs;
   const Arcs other = track.spliced(from, search.arcs(), to);
-  return cost_.of(query_.start, other, query_.gear_after) < track.cost() ? other : arcs;
+  return cost_.of(query_.start, other, query_.junctions) < track.cost() ? other : arcs;
 }
 
 }  // namespace external_command

@@ -6,11 +6,10 @@
 
 namespace external_command {
 
-Track::Track(const Query& query, const Arcs& arcs, const DrivingCost& cost)
-    : arcs_(arcs), gear_after_(query.gear_after) {
+Track::Track(const Query& query, const Arcs& arcs, const DrivingCost& cost) : arcs_(arcs), junctions_(query.junctions) {
   const CostModel& model = cost.ofArcs();
   Pose2d pose = query.start;
-  double s = 0.0, so_far = 0.0;
+  double s = 0.0, so_far = costBefore(arcs_, model, junctions_);
   for (std::size_t i = 0; i < arcs_.size(); ++i) {
     if (i > 0) so_far += model.between(arcs_[i - 1], arcs_[i]);
     begins_.push_back(pose);
@@ -22,8 +21,7 @@ Track::Track(const Query& query, const Arcs& arcs, const DrivingCost& cost)
     so_far += driving_.back();
   }
   s_.push_back(s);
-  if (gearOf(arcs_.back()) == -gear_after_) so_far += model.gear_change_cost;
-  costs_.push_back(so_far);
+  costs_.push_back(so_far + costAfter(arcs_, model, junctions_));
 }
 
 std::size_t Track::arcAt(double s) const {
@@ -39,14 +37,14 @@ Track::Place Track::placeAt(std::size_t arc, double s) const {
 }
 
 Track::Place Track::arriving(double s) const {
-  if (s <= 0.0) return {begins_[0], 0, 0.0, 0.0, 0, 0.0};
+  if (s <= 0.0) return {begins_[0], junctions_.before, junctions_.kappa_before, 0.0, 0, 0.0};
   const std::size_t arc = arcAt(s);
   return placeAt(arc > 0 && s <= s_[arc] ? arc - 1 : arc, s);
 }
 
 Track::Place Track::leaving(double s) const {
   Place place = placeAt(arcAt(s), s);
-  if (s >= length()) place.gear = gear_after_, place.cost = cost();
+  if (s >= length()) place.gear = junctions_.after, place.kappa = junctions_.kappa_after, place.cost = cost();
   return place;
 }
 

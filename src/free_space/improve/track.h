@@ -43,7 +43,7 @@ class Track {
   Place placeAt(std::size_t arc, double s) const;
 
   Arcs arcs_;
-  int gear_after_;
+  Junctions junctions_;
   std::vector<Pose2d> begins_;
   std::vector<double> s_;        ///< at the begin of each arc, and at the end
   std::vector<double> driving_;  ///< cost of each arc alone

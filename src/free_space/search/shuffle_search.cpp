@@ -58,8 +58,9 @@ std::size_t ShuffleSearch::follow(const std::vector<Pose2d>& way) {
 bool ShuffleSearch::searchPiece(const std::vector<Pose2d>& way, std::size_t first, std::size_t last) {
   std::vector<Point2d> points;
   for (std::size_t i = first; i <= last; ++i) points.push_back(way[i].position());
-  const int gear_after = last + 1 == way.size() ? query_.gear_after : 0;
-  TwoWaySearch search(scene_, {way[first], way[last], gear_after},
+  Junctions junctions;
+  junctions.after = last + 1 == way.size() ? query_.junctions.after : 0;
+  TwoWaySearch search(scene_, {way[first], way[last], junctions},
                       searchBox(points, kRoomAround * scene_.radius, area_));
   TwoWaySearch::Variant variant;
   TwoWaySearch::Limits limits{kPieceSteps, std::numeric_limits<double>::infinity(), stop_};

@@ -31,8 +31,8 @@ TwoWaySearch::TwoWaySearch(const Scene& scene, const Query& query, const Boundin
       backward_scene_{scene.index, scene.radius, scene.cost.reversed()},
       to_goal_(scene.index, area, query.goal),
       to_start_(scene.index, area, query.start),
-      from_start_(scene_, query.start, query.gear_before, to_goal_),
-      from_goal_(backward_scene_, query.goal, -query.gear_after, to_start_) {}
+      from_start_(scene_, query.start, query.junctions.before, to_goal_),
+      from_goal_(backward_scene_, query.goal, -query.junctions.after, to_start_) {}
 
 SearchLevel TwoWaySearch::levelFor(std::size_t i, const Variant& variant) const {
   SearchLevel level = kLevels[i];

@@ -128,7 +128,9 @@ bool WayPoseSearch::searchLeg(const Pose2d& from, const Pose2d& to, bool is_last
   std::vector<Point2d> points{from.position(), to.position()};
   for (std::size_t i = first; i <= last; ++i) points.push_back(line[i].at);
   const BoundingBox box = searchBox(points, kRoomAround * scene_.radius, area_);
-  TwoWaySearch search(scene_, {from, to, is_last ? query_.gear_after : 0}, box);
+  Junctions junctions;
+  junctions.after = is_last ? query_.junctions.after : 0;
+  TwoWaySearch search(scene_, {from, to, junctions}, box);
   const double infinity = std::numeric_limits<double>::infinity();
   if (search.run({}, {kLegSteps, infinity, stop_}) != TwoWaySearch::Outcome::kFound) return false;
   arcs->insert(arcs->end(), search.arcs().begin(), search.arcs().end());

@@ -28,6 +28,7 @@ struct ManoeuvrePlanner::PlacedGrid {
 
 namespace {
 
+constexpr double kBend = 1.2;          // of the longest ramp, half of which lies there, as multiple
 constexpr double kLeastBudget = 2e-3;  // that planning can begin with [s]
 
 OccupancyGrid toGrid(const nav_msgs::OccupancyGrid& message, const Pose2d& frame, const ObstacleGridParams& params) {
@@ -113,6 +114,12 @@ ManoeuvrePlanner::ManoeuvrePlanner(ros::NodeHandle nh, const ParameterReader& re
 
 ManoeuvrePlanner::~ManoeuvrePlanner() = default;
 
+double ManoeuvrePlanner::bendLength() const {
+  const VehicleParams& vehicle = context_.params().vehicle;
+  const double ramp = params_.manoeuvre_speed * vehicle.wheelbase * vehicle.maxKappa() / vehicle.max_steering_rate;
+  return params_.continuous_curvature ? kBend * ramp : 0.0;
+}
+
 ManoeuvrePlanner::PlacedGrid ManoeuvrePlanner::requireGrid() const {
   const std::string& topic = grid_params_.topic;
   nav_msgs::OccupancyGrid::ConstPtr message;
@@ -166,8 +173,8 @@ Region ManoeuvrePlanner::regionOf(Region::Parts parts) const {
 }
 
 FreeSpacePlan ManoeuvrePlanner::plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region,
-                                     const Deadline& deadline, const CancelToken& cancel,
-                                     const CommandScene& scene) const {
+                                     const Deadline& deadline, const CancelToken& cancel, const CommandScene& scene,
+                                     const EndStates& ends) const {
   FreeSpaceParams params = params_;
   params.time_budget = std::min(params_.time_budget, deadline.left());
   params.improve_budget *= params.time_budget / params_.time_budget;
@@ -176,7 +183,7 @@ FreeSpacePlan ManoeuvrePlanner::plan(const Pose2d& start, const std::vector<Pose
                                "; raise ~free_space/time_budget, which is ", seconds(params_.time_budget)));
   }
   try {
-    return FreeSpacePlanner(context_.params().vehicle, params).plan(start, goals, region, cancel);
+    return FreeSpacePlanner(context_.params().vehicle, params).plan(start, goals, region, cancel, ends);
   } catch (const StartBlocked&) {
     showConflicts({start}, region, scene, cancel);
     throw;

@@ -48,14 +48,18 @@ class ManoeuvrePlanner {
   /// @throws NotReady  the grid has not come, or is too old.
   Region regionOf(Region::Parts parts) const;
 
+  /// How much of a path before or behind a manoeuvre is to be bent so that steering is gradual there [m].
+  double bendLength() const;
+
   /// By when a command that is begun now is to be planned, all its manoeuvres together.
   Deadline deadline() const { return Deadline(params_.time_budget); }
 
   /// The cheapest manoeuvre from `start` to one of `goals` that is found by `deadline`. A start or goal that is blocked
-  /// is shown in rviz together with `scene`.
+  /// is shown in rviz together with `scene`. @param ends  what leads up to it and on from it.
   /// @throws  as FreeSpacePlanner::plan()
   FreeSpacePlan plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region,
-                     const Deadline& deadline, const CancelToken& cancel, const CommandScene& scene) const;
+                     const Deadline& deadline, const CancelToken& cancel, const CommandScene& scene,
+                     const EndStates& ends = {}) const;
 
   /// Shows in rviz what stands in the way of `poses`, together with `scene`.
   /// @throws Cancelled

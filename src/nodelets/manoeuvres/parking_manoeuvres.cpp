@@ -9,6 +9,7 @@
 #include "external_command/core/text.h"
 #include "external_command/map/drivable_surface.h"
 #include "parking_poses.h"
+#include "path_joint.h"
 
 namespace external_command {
 
@@ -54,18 +55,12 @@ std::vector<Polygon> placesAt(const HdMap& map, const VehicleParams& vehicle, do
   return {Polygon({ground.begin(), ground.end()}, "the ground under the vehicle")};
 }
 
-/// Poses on the path at which a manoeuvre may get onto it, and their indices.
-struct Joints {
-  std::vector<Pose2d> poses;
-  std::vector<std::size_t> indices;
-};
-
-Joints jointsOf(const Path& path) {
-  Joints joints;
+/// Where on the path a manoeuvre may get onto it.
+std::vector<PathJoint> jointsOf(const Path& path, double bend_length) {
+  std::vector<PathJoint> joints;
   for (const double after : kJoiningPoints) {
-    if (after > path.back().s && !joints.poses.empty()) break;
-    joints.indices.push_back(indexAt(path, after));
-    joints.poses.push_back(path[joints.indices.back()].pose());
+    if (after > path.back().s && !joints.empty()) break;
+    joints.push_back(joiningAt(path, indexAt(path, after), bend_length));
   }
   return joints;
 }
@@ -103,8 +98,9 @@ Region::Parts surfaceWith(const HdMap& map, const Polygon& core, const Pose2d& o
   return parts;
 }
 
-void leaveRouteFor(const std::vector<Pose2d>& goals, const Region& region, const ManoeuvrePlanner& planner,
-                   const Deadline& deadline, const CancelToken& cancel, MotionPlan* plan) {
+void leaveRouteFor(const std::vector<Pose2d>& goals, const std::vector<std::optional<EndState>>& onward,
+                   const Region& region, const ManoeuvrePlanner& planner, const Deadline& deadline,
+                   const CancelToken& cancel, MotionPlan* plan) {
   const double end = plan->path.back().s;
   std::size_t left = std::size(kLeavingPoints);
   std::optional<FreeSpacePlan> best;
@@ -115,14 +111,17 @@ void leaveRouteFor(const std::vector<Pose2d>& goals, const Region& region, const
   std::string why;
   for (const double before : kLeavingPoints) {
     if (before > end) break;
-    const std::size_t index = indexAt(plan->path, end - before);
+    const PathJoint joint = leavingAt(plan->path, indexAt(plan->path, end - before), planner.bendLength());
+    const EndStates ends{joint.state, onward};
     const Deadline attempt = deadline.part(1.0 / static_cast<double>(left--));
     try {
-      FreeSpacePlan found = planner.plan(plan->path[index].pose(), goals, region, attempt, cancel, plan->scene);
-      const double cost = plan->path[index].s + found.cost;
+      FreeSpacePlan found =
+          planner.plan(plan->path[joint.point].pose(), goals, region, attempt, cancel, plan->scene, ends);
+      const std::size_t begin = found.begins_before ? joint.bend : joint.point;
+      const double cost = plan->path[begin].s + found.cost;
       if (best && cost >= best_cost) continue;
       best = std::move(found);
-      best_index = index;
+      best_index = begin;
       best_cost = cost;
     } catch (const Cancelled&) {
       throw;
@@ -149,15 +148,22 @@ void leaveParkingPlace(const ProcessContext& context, const Pose2d& vehicle, con
   if (!LaneWayTool(map, context.params().lane_way).isOffLane(vehicle, context.vehiclePose().height())) return;
   const double margin = planner.params().margin;
   std::string why;
+  const std::vector<PathJoint> joints = jointsOf(plan->path, planner.bendLength());
+  std::vector<Pose2d> poses;
+  EndStates ends;
+  for (const PathJoint& joint : joints) {
+    poses.push_back(plan->path[joint.point].pose());
+    ends.goals.push_back(joint.state);
+  }
   const std::vector<Polygon> places = placesAt(map, context.params().vehicle, margin, vehicle);
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Deadline attempt = deadline.part(1.0 / static_cast<double>(places.size() - i));
     try {
       const Region region = planner.regionOf(surfaceWith(map, places[i], plan->path.front().pose(), cancel));
-      const Joints joints = jointsOf(plan->path);
-      const FreeSpacePlan out = planner.plan(vehicle, joints.poses, region, attempt, cancel, plan->scene);
-      const auto joint = static_cast<std::ptrdiff_t>(joints.indices[out.goal_index]);
-      const Path rest(plan->path.begin() + joint, plan->path.end());
+      const FreeSpacePlan out = planner.plan(vehicle, poses, region, attempt, cancel, plan->scene, ends);
+      const PathJoint& joint = joints[out.goal_index];
+      const std::size_t rest_begin = out.ends_beyond ? joint.bend : joint.point;
+      const Path rest(plan->path.begin() + static_cast<std::ptrdiff_t>(rest_begin), plan->path.end());
       plan->path.clear();
       planner.append(out, plan);
       plan->path = join(plan->path, rest, context.params().vehicle);

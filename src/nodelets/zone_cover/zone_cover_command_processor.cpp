@@ -192,7 +192,8 @@ void ZoneCoverCommandProcessor::enterZone(const ZoneCoverCommand& command, const
   const auto entries = zoneEntries(zone, context().params().vehicle, coverage_params_.margin, from, cancel);
   Region::Parts parts = surfaceWith(map, zone.outer, from, cancel);
   parts.non_drivable.insert(parts.non_drivable.end(), zone.holes.begin(), zone.holes.end());
-  leaveRouteFor(entries, planner_->regionOf(std::move(parts)), *planner_, deadline, cancel, plan);
+  const std::vector<std::optional<EndState>> onward(entries.size(), EndState());  // a sweep begins straight on
+  leaveRouteFor(entries, onward, planner_->regionOf(std::move(parts)), *planner_, deadline, cancel, plan);
 }
 
 ZonePlanFile ZoneCoverCommandProcessor::fileOf(const ZoneCoverCommand& command, const CoverageArea& zone,
