@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <ctime>
 #include <iostream>
+#include <memory>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -12,6 +13,7 @@
 #include "coverage_case.h"
 #include "coverage_check.h"
 #include "coverage_files.h"
+#include "external_command/core/driving_time.h"
 #include "external_command/core/error.h"
 #include "files.h"
 #include "made_fields.h"
@@ -39,9 +41,10 @@ min_turning_radius (5) or max_steer}.
 Columns: area without holes [ha]; swept share of what the vehicle can reach (the area shrunk by half the larger of
 vehicle and swath width, the part at the start, grown by half the swath) and of the whole area [%]; overlap, swept again
 over swept; path length [m] and, in brackets, that over swept area / swath width; turns; gear changes; poses at which a
-part of the footprint, 1 cm smaller all round, is outside; time of planning on the wall clock and on the processor [s].
-All but the times is measured on the path alone. Exit code: 0; 1 if a field cannot be planned or a path cannot be driven
-or leaves its field; 2 if an option is wrong or a file cannot be read or written.
+part of the footprint, 1 cm smaller all round, is outside; time that driving takes, changes of gear not counted [s];
+time of planning on the wall clock and on the processor [s]. All but the times is measured on the path alone. Exit code:
+0; 1 if a field cannot be planned or a path cannot be driven or leaves its field; 2 if an option is wrong or a file
+cannot be read or written.
 )";
 
 constexpr double kLargeField = 12000.0;  // [m^2]
@@ -61,6 +64,7 @@ struct Summary {
   std::size_t faulty = 0;
   std::size_t outside = 0;
   std::vector<double> covered, ratios, large_ratios, changes, times;
+  double driving = 0.0;  ///< [s]
 };
 
 CoverageObjective objectiveOf(const std::string& name) {
@@ -88,6 +92,9 @@ po::options_description describe(Options* options) {
   add("gear-cost", number("gear-cost", &params.gear_change_cost), "price of a change of gear, as length [m]");
   add("no-reverse", po::bool_switch()->notifier([&params](bool is_given) { params.reverse_to_turn = !is_given; }),
       "plan for a vehicle that is not to reverse");
+  add("turn-speed", number("turn-speed", &params.turn_speed),
+      "at which turns can be steered [m/s]; 0: they are arcs and straight pieces");
+  add("spacing", number("spacing", &params.spacing), "between two points of the path [m]");
   add("target", number("target", &params.target_coverage),
       "of the reachable area that is to be swept, as share; what is more only where it costs little");
   add("paths", po::value(&options->paths)->value_name("DIR"),
@@ -122,11 +129,17 @@ std::vector<CoverageCase> fieldsOf(const Options& options) {
   return fields;
 }
 
-void report(const CoverageCheck& check, double seconds, double cpu_seconds, Summary* summary) {
+/// How long the vehicle drives, with the caps of speed made limits [s].
+double drivingTimeOf(const CoverageCase& field, Path path) {
+  limitSpeeds(field.vehicle, &path);
+  return DrivingTime(field.vehicle, std::make_shared<Path>(std::move(path))).left(0.0, 0.0);
+}
+
+void report(const CoverageCheck& check, double driving, double seconds, double cpu_seconds, Summary* summary) {
   std::printf("area %6.2f  swept %6.2f of %6.2f  overlap %.3f  length %7.0f (%.3f)  turns %4zu  gear changes %3zu",
               1e-4 * check.free_area, 100.0 * check.covered_reachable, 100.0 * check.covered_free, check.overlap,
               check.length, check.length_ratio, check.turns, check.gear_changes);
-  std::printf("  outside %zu  time %.3f  cpu %.3f\n", check.outside, seconds, cpu_seconds);
+  std::printf("  outside %zu  driving %.0f  time %.3f  cpu %.3f\n", check.outside, driving, seconds, cpu_seconds);
   for (const std::string& fault : check.faults) std::printf("  FAULT: %s\n", fault.c_str());
   summary->faulty += check.faults.empty() ? 0 : 1;
   summary->outside += check.outside > 0 ? 1 : 0;
@@ -135,6 +148,7 @@ void report(const CoverageCheck& check, double seconds, double cpu_seconds, Summ
   if (check.free_area > kLargeField) summary->large_ratios.push_back(check.length_ratio);
   summary->changes.push_back(static_cast<double>(check.gear_changes) / std::max(1.0, static_cast<double>(check.turns)));
   summary->times.push_back(seconds);
+  summary->driving += driving;
 }
 
 /// With what a controller could not rely on in the path as it would be sent, its caps of speed made limits.
@@ -158,7 +172,8 @@ void runField(const CoverageCase& field, const Options& options, Summary* summar
     const CoverageResult result = CoveragePlanner(field.vehicle, params).plan(field.area(), field.start, {}, {});
     const double cpu_seconds = static_cast<double>(std::clock() - cpu_begin) / CLOCKS_PER_SEC;
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
-    report(checkedAsSent(field, params, result.path), elapsed.count(), cpu_seconds, summary);
+    const double driving = drivingTimeOf(field, result.path);
+    report(checkedAsSent(field, params, result.path), driving, elapsed.count(), cpu_seconds, summary);
     if (!options.paths.empty()) writeCoveragePath(result.path, options.paths + "/" + field.name + ".json");
     if (!options.drawings.empty()) drawCoverage(field, result.path, options.drawings + "/" + field.name + ".svg");
   } catch (const Error& error) {
@@ -174,8 +189,10 @@ void print(const Summary& summary) {
       100.0 * median(summary.covered), 100.0 * least(summary.covered));
   std::printf("; length ratio: median %.3f, largest %.3f, over 1.2 ha %.3f", median(summary.ratios),
               largest(summary.ratios), largest(summary.large_ratios));
-  std::printf("; gear changes a turn: median %.2f, most %.2f; time: median %.3f s, slowest %.3f s\n",
-              median(summary.changes), largest(summary.changes), median(summary.times), largest(summary.times));
+  std::printf(
+      "; gear changes a turn: median %.2f, most %.2f; driving %.0f s in all; time: median %.3f s, slowest %.3f s\n",
+      median(summary.changes), largest(summary.changes), summary.driving, median(summary.times),
+      largest(summary.times));
 }
 
 int run(const std::vector<std::string>& words) {

@@ -17,6 +17,7 @@ void CoverageParams::validate() const {
   requireParameter("coverage/target_coverage", target_coverage, 0.5, 1.0);
   requireParameter("coverage/max_gap", max_gap, 0.0, 1e6);
   requireParameter("coverage/gear_change_cost", gear_change_cost, 0.0, 1e3);
+  requireParameter("coverage/turn_speed", turn_speed, 0.0, 20.0);
   requireParameter("coverage/path_spacing", spacing, 0.05, 100.0);
   requireParameter("coverage/max_grid_rows", static_cast<double>(max_grid_rows), 1, 1e7);
   requireParameter("coverage/time_budget", time_budget, 1e-3, 3600.0);

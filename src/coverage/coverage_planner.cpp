@@ -11,6 +11,7 @@
 #include "coverage/field/uncovered.h"
 #include "coverage/order/plan.h"
 #include "coverage/path/connector.h"
+#include "coverage/path/gradual_link.h"
 #include "external_command/core/error.h"
 #include "external_command/core/text.h"
 
@@ -64,7 +65,7 @@ std::vector<SwathLine> linesOf(const Field& field, const Course& course) {
   return lines;
 }
 
-/// Drives the steps of a plan one after the other and keeps what the path and the statistics need.
+/// Drives the lines one after the other, and makes a path of that with what the statistics need.
 class PathBuilder {
  public:
   PathBuilder(const Field& field, const Course& course, CoverageResult* result)
@@ -86,15 +87,23 @@ class PathBuilder {
       result_->warnings.push_back(text("swath ", index, " is left out: the footprint would not stay inside"));
       return;
     }
-    for (const Approach& approach : approaches) {
-      if (at_ && !approach.is_here && !transfer(index, approach.way)) continue;
-      work(index, approach);
+    for (Approach& approach : approaches) {
+      std::optional<Curve> link;
+      if (at_ && !approach.is_here) {
+        link = wayTo(index, approach.way);
+        if (!link || !field_.isBarelyFree(*link)) continue;
+      }
+      at_ = approach.way.end();
+      legs_.push_back({index, std::move(link), std::move(approach)});
       return;
     }
     result_->warnings.push_back(text("swath ", index, " is left out: no way leads there from ", at(*at_)));
   }
 
-  void finish() {
+  /// @return  whether any line is driven.
+  bool finish() {
+    if (legs_.empty()) return false;
+    makePath();
     Path& path = result_->path;
     for (ReferencePoint& point : path) {
       point.x += field_.origin().x();
@@ -109,6 +118,7 @@ class PathBuilder {
       result_->turns += result_->swaths[i].first > result_->swaths[i - 1].last;
     }
     measure();
+    return true;
   }
 
  private:
@@ -118,6 +128,13 @@ class PathBuilder {
     Curve way;
     double cost = 0.0;     ///< about what it takes to get there, and what is driven twice [m]
     bool is_here = false;  ///< the vehicle is there
+  };
+
+  /// A line that is driven, or the rest of one.
+  struct Leg {
+    std::size_t index;          ///< of the line
+    std::optional<Curve> link;  ///< that leads there, where one is needed
+    Approach approach;
   };
 
   /// The whole line; or where the rest of it may be begun, the cheapest first: a vehicle that stands beside the line
@@ -167,25 +184,46 @@ class PathBuilder {
     return turnsWithoutObstacles(from, to, field_.radius(), field_.gearPrice()).front().cost;
   }
 
-  void work(std::size_t index, const Approach& approach) {
-    Swath swath;
-    swath.index = index;
-    swath.first = result_->path.empty() ? 0 : result_->path.size() - 1;
-    swath.covered = sweep(append(approach.way, true));
-    swath.last = result_->path.size() - 1;
-    swath.from = approach.from;
-    swath.length = approach.way.length();
-    swath.covered_area = swath.covered.back();
-    result_->working_length += swath.length;
-    result_->swaths.push_back(std::move(swath));
-    at_ = approach.way.end();
+  /// The path along all legs; links reach into the lines at both their ends.
+  void makePath() {
+    std::optional<GradualLink> link = linkTo(0);
+    for (std::size_t i = 0; i < legs_.size(); ++i) {
+      field_.poll();
+      if (link) append(partOf(link->curve, link->before, link->curve.length() - link->after), false);
+      std::optional<GradualLink> next = linkTo(i + 1);
+      const Curve& line = legs_[i].approach.way;
+      Swath swath = swathOf(legs_[i]);
+      if (link) work(partOf(link->curve, link->curve.length() - link->after, link->curve.length()), &swath);
+      work(partOf(line, link ? link->after : 0.0, line.length() - (next ? next->before : 0.0)), &swath);
+      if (next) work(partOf(next->curve, 0.0, next->before), &swath);
+      swath.last = result_->path.size() - 1;
+      swath.covered_area = swath.covered.back();
+      result_->working_length += swath.length;
+      result_->swaths.push_back(std::move(swath));
+      link = std::move(next);
+    }
   }
 
-  bool transfer(std::size_t index, const Curve& way) {
-    const std::optional<Curve> link = wayTo(index, way);
-    if (!link || !field_.isBarelyFree(*link)) return false;
-    append(*link, false);
-    return true;
+  std::optional<GradualLink> linkTo(std::size_t leg) const {
+    if (leg >= legs_.size() || !legs_[leg].link) return std::nullopt;
+    const Curve* const before = leg > 0 ? &legs_[leg - 1].approach.way : nullptr;
+    return gradualLink(field_, before, *legs_[leg].link, legs_[leg].approach.way);
+  }
+
+  Swath swathOf(const Leg& leg) const {
+    Swath swath;
+    swath.index = leg.index;
+    swath.first = result_->path.empty() ? 0 : result_->path.size() - 1;
+    swath.from = leg.approach.from;
+    swath.length = leg.approach.way.length();
+    swath.covered = {0.0};
+    return swath;
+  }
+
+  void work(const Curve& part, Swath* swath) {
+    const std::vector<double> covered = sweep(append(part, true));
+    const double before = swath->covered.back();
+    for (std::size_t i = 1; i < covered.size(); ++i) swath->covered.push_back(before + covered[i]);
   }
 
   /// As planned, if the vehicle is where the plan takes it to be.
@@ -193,7 +231,7 @@ class PathBuilder {
     if (index < course_.links.size() && course_.links[index] && isSame(course_.links[index]->start, *at_)) {
       return course_.links[index];
     }
-    const Curve* driven = result_->swaths.empty() ? nullptr : &course_.lines[result_->swaths.back().index];
+    const Curve* driven = legs_.empty() ? nullptr : &course_.lines[legs_.back().index];
     return Connector(field_).connect(driven, *at_, way);
   }
 
@@ -236,6 +274,7 @@ class PathBuilder {
   const Field& field_;
   const Course& course_;
   std::optional<Pose2d> at_;
+  std::vector<Leg> legs_;
   CoverageGrid swept_;
   CoverageResult* result_;
 };
@@ -279,11 +318,10 @@ CoverageResult CoveragePlanner::plan(const CoverageArea& area, const std::option
   PathBuilder builder(field, course, &result);
   for (std::size_t i = 0; i < progress.swept.size(); ++i) builder.count(i, progress.swept[i]);
   for (const std::size_t index : todoOf(progress, course.lines.size())) builder.drive(index, progress.sweptOf(index));
-  if (result.swaths.empty()) {
+  if (!builder.finish()) {
     throw NoPath(text("no swath can be reached", start ? text(" from ", at(*start)) : std::string(), "; ",
                       result.warnings.empty() ? "all are done" : result.warnings.front()));
   }
-  builder.finish();
   result.planning_time = std::chrono::duration<double>(Clock::now() - began).count();
   return result;
 }

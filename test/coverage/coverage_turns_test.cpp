@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <utility>
+
+#include "external_command/core/driving_time.h"
 #include "sweeper.h"
 
 namespace external_command {
@@ -12,6 +16,53 @@ TEST(CoveragePlanner, TurnsForwardWhereTheHeadlandHasRoom) {
   EXPECT_LE(result.gear_changes, result.turns);
   EXPECT_GT(result.coverage_ratio, 0.98);
   EXPECT_TRUE(isDrivable(result.path, area));
+}
+
+CoverageResult plannedAt(double turn_speed, const CoverageArea& area) {
+  CoverageParams wished = params();
+  wished.turn_speed = turn_speed;
+  return CoveragePlanner(sweeper(), wished).plan(area, kStart, {}, {});
+}
+
+/// In turns, of half of full lock at least, without a change of gear.
+std::size_t jumpsOfSteering(const Path& path) {
+  std::size_t jumps = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const bool stands = path[i].direction != path[i - 1].direction;
+    jumps += !stands && !path[i].tool_on && std::abs(path[i].kappa - path[i - 1].kappa) > 0.5 * sweeper().maxKappa();
+  }
+  return jumps;
+}
+
+double drivingTimeOf(const CoverageResult& result) {
+  Path path = result.path;
+  limitSpeeds(sweeper(), &path);
+  return DrivingTime(sweeper(), std::make_shared<Path>(std::move(path))).left(0.0, 0.0);
+}
+
+TEST(CoveragePlanner, SteersGraduallyIntoTurnsAndOutOfThem) {
+  const CoverageArea area{box(0, 0, 60, 40), {}};
+  const CoverageResult sudden = plannedAt(0.0, area), gradual = plannedAt(2.0, area);
+  ASSERT_GT(jumpsOfSteering(sudden.path), sudden.turns);
+  EXPECT_LT(jumpsOfSteering(gradual.path), jumpsOfSteering(sudden.path) / 3);
+  EXPECT_LT(drivingTimeOf(gradual), 0.97 * drivingTimeOf(sudden));
+  EXPECT_TRUE(isDrivable(sudden.path, area));
+  EXPECT_TRUE(isDrivable(gradual.path, area));
+}
+
+TEST(CoveragePlanner, SweepsTheSameLinesHoweverItSteersBetweenThem) {
+  const CoverageArea area{box(0, 0, 60, 40), {box(28, 18, 32, 22)}};
+  const CoverageResult sudden = plannedAt(0.0, area), gradual = plannedAt(2.0, area);
+  ASSERT_EQ(gradual.swaths.size(), sudden.swaths.size());
+  for (std::size_t i = 0; i < gradual.swaths.size(); ++i) {
+    const Swath &swath = gradual.swaths[i], &other = sudden.swaths[i];
+    EXPECT_EQ(swath.index, other.index);
+    EXPECT_EQ(swath.length, other.length);
+    EXPECT_NEAR(gradual.path[swath.last].s - gradual.path[swath.first].s, swath.length, 0.05);
+    EXPECT_EQ(swath.covered.size(), swath.last - swath.first + 1);
+  }
+  EXPECT_NEAR(gradual.coverage_ratio, sudden.coverage_ratio, 0.003);
+  EXPECT_NEAR(gradual.length, sudden.length, 0.01 * sudden.length);
 }
 
 CoverageResult plannedForward(const CoverageArea& area, const Pose2d& start = kStart) {

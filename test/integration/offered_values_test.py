@@ -51,6 +51,7 @@ OFFERED = {
     "zone_cover_command_processor/coverage/headland_first": [True, False],
     "zone_cover_command_processor/coverage/objective": ["shortest", "fewest_turns"],
     "zone_cover_command_processor/coverage/max_gap": [4.0, 0.0],
+    "zone_cover_command_processor/coverage/turn_speed": [2.0, 0.0],
     "zone_cover_command_processor/coverage/reverse_to_turn": [False, True],  # with one lap there is no room
     "zone_cover_command_processor/progress_folder": [""],
     "path_follow_command_processor/input_path_name": ["", "a_path"],

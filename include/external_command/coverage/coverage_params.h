@@ -30,7 +30,9 @@ struct CoverageParams {
   double gear_change_cost = 4.0;  ///< price of a gear change: what the vehicle would drive in the time that it
                                   ///< takes to stop and to change, not negative [m]
   bool reverse_to_turn = true;    ///< false: what only reversing leads to is left out, but for laps that are wished
-  double spacing = 1.0;           ///< between points of the path, at most, [0.05, 100] [m]
+  double turn_speed = 2.0;  ///< at which turns can be steered where there is room, [0, 20] [m/s]; 0: they are arcs
+                            ///< and straight pieces, between which the vehicle slows down and turns its wheels
+  double spacing = 1.0;     ///< between points of the path, at most, [0.05, 100] [m]
   std::size_t max_grid_rows = 100000;  ///< of blocked cells side by side in the obstacle grid, [1, 10000000]
   double time_budget = 3.0;  ///< past 0.4 of it no further variant is tried, past all of it the plan is given up,
                              ///< (0, 3600] [s]

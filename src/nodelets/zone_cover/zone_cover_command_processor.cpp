@@ -53,6 +53,7 @@ CoverageParams readCoverageParams(const ParameterReader& reader) {
   reader.read("max_gap", &params.max_gap);
   reader.read("gear_change_cost", &params.gear_change_cost);
   reader.read("reverse_to_turn", &params.reverse_to_turn);
+  reader.read("turn_speed", &params.turn_speed);
   reader.read("path_spacing", &params.spacing);
   reader.read("time_budget", &params.time_budget);
   reader.readSize("max_grid_rows", 1, 10000000, &params.max_grid_rows);
