@@ -166,7 +166,8 @@ class SimulatedPlanner:
         if not self._task:
             return
         tracker = self._task.tracker
-        message = "driven %.1f of %.1f m, at %.1f m/s" % (tracker.driven, tracker.length, self.state.speed)
+        speed = round(self.state.speed, 1) + 0.0  # standing is not "-0.0 m/s"
+        message = "driven %.1f of %.1f m, at %.1f m/s" % (tracker.driven, tracker.length, speed)
         if obstacle:
             message = "waiting: %s; %s" % (obstacle, message)
         elif self._hold:
