@@ -16,6 +16,7 @@ import rostest
 
 import support
 from external_command.client import CommandClient
+from vehicle import Vehicle
 
 CLIENT = ["rosrun", "external_command", "external_command_client"]
 TIMEOUT = 120.0  # [s]; a command that takes longer hangs
@@ -39,6 +40,12 @@ class CommandLineTest(unittest.TestCase):
     def setUpClass(cls):
         cls.client = CommandClient("apollo", support.DEADLINE)
         support.wait_until_ready(cls.client)
+        cls.vehicle = Vehicle("/apollo/")
+
+    def setUp(self):
+        """As far from every goal as the tests need, however long those before this one took."""
+        self.vehicle.wait_until_standing()
+        self.vehicle.place(90.0, 194.75)
 
     def tearDown(self):
         self.client.clear()

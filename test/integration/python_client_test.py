@@ -16,6 +16,7 @@ import support
 from external_command import client as client_module
 from external_command.client import CommandClient
 from external_command.msg import CommandStatus, LaneFollowCommand
+from vehicle import Vehicle
 
 PACKAGE = rospkg.RosPack().get_path("external_command")
 sys.path.insert(0, os.path.join(PACKAGE, "test", "python"))
@@ -30,6 +31,12 @@ class PythonClientTest(unittest.TestCase):
     def setUpClass(cls):
         cls.client = CommandClient("apollo", timeout=support.DEADLINE)
         support.wait_until_ready(cls.client)
+        cls.vehicle = Vehicle("/apollo/")
+
+    def setUp(self):
+        """As far from every goal as the tests need, however long those before this one took."""
+        self.vehicle.wait_until_standing()
+        self.vehicle.place(90.0, 194.75)
 
     def tearDown(self):
         self.client.clear()

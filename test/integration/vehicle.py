@@ -12,14 +12,15 @@ from external_command.srv import PathFollow
 
 
 class Vehicle:
-    """What the vehicle reports."""
+    """What the vehicle reports. Its topics and services are those below `namespace`, by default the test's own."""
 
-    def __init__(self):
+    def __init__(self, namespace=""):
+        self._namespace = namespace
         self._buffer = tf2_ros.Buffer()
         self._listener = tf2_ros.TransformListener(self._buffer)
         self._chassis = None
-        self._initial_pose = rospy.Publisher("initialpose", PoseWithCovarianceStamped, queue_size=1)
-        self._subscriber = rospy.Subscriber("canbus/chassis", Chassis, self._on_chassis)
+        self._initial_pose = rospy.Publisher(namespace + "initialpose", PoseWithCovarianceStamped, queue_size=1)
+        self._subscriber = rospy.Subscriber(namespace + "canbus/chassis", Chassis, self._on_chassis)
         support.wait_until(lambda: self._chassis is not None, "a message of the chassis")
         support.wait_until(lambda: self._buffer.can_transform("map", "base_link", rospy.Time()), "the vehicle's pose")
 
@@ -53,12 +54,14 @@ class Vehicle:
         support.wait_until(lambda: math.hypot(self.pose[0] - x, self.pose[1] - y) < 1e-3, "the vehicle is there")
         support.wait_until(lambda: self._component_sees_it_at(x, y), "the component knows where the vehicle is")
 
-    @staticmethod
-    def _component_sees_it_at(x, y):
+    def _component_sees_it_at(self, x, y):
         command = PathFollowCommand(way_point=[Point(0.0, 0.0, 0.0), Point(10.0, 0.0, 0.0)], dry_run=True)
         command.header.frame_id = "base_link"
-        points = support.service("external_command/path_follow", PathFollow)(command).path.points
+        points = self._follow(command).path.points
         return bool(points) and math.hypot(points[0].x - x, points[0].y - y) < 0.01
+
+    def _follow(self, command):
+        return support.service(self._namespace + "external_command/path_follow", PathFollow)(command)
 
     def wait_until_moving(self):
         support.wait_until(lambda: abs(self.speed) > 0.5, "the vehicle moves")
@@ -75,6 +78,6 @@ class Vehicle:
     def drive_straight(self, length=500.0, **fields):
         """The id of a motion command that keeps the vehicle driving."""
         command = PathFollowCommand(way_point=self.ahead((0.0, 0.0), (length, 0.0)), **fields)
-        status = support.service("external_command/path_follow", PathFollow)(command).status
+        status = self._follow(command).status
         assert status.command_id > 0 and status.error_code == 0, support.describe(status)
         return status.command_id
