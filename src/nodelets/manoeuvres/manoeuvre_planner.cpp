@@ -12,6 +12,7 @@
 #include "external_command/motion/collision_checker.h"
 #include "external_command/ros/bounded_subscription.h"
 #include "external_command/ros/log_writer.h"
+#include "path_joint.h"
 
 namespace external_command {
 
@@ -28,7 +29,6 @@ struct ManoeuvrePlanner::PlacedGrid {
 
 namespace {
 
-constexpr double kBend = 1.2;          // of the longest ramp, half of which lies there, as multiple
 constexpr double kLeastBudget = 2e-3;  // that planning can begin with [s]
 
 OccupancyGrid toGrid(const nav_msgs::OccupancyGrid& message, const Pose2d& frame, const ObstacleGridParams& params) {
@@ -114,11 +114,7 @@ ManoeuvrePlanner::ManoeuvrePlanner(ros::NodeHandle nh, const ParameterReader& re
 
 ManoeuvrePlanner::~ManoeuvrePlanner() = default;
 
-double ManoeuvrePlanner::bendLength() const {
-  const VehicleParams& vehicle = context_.params().vehicle;
-  const double ramp = params_.manoeuvre_speed * vehicle.wheelbase * vehicle.maxKappa() / vehicle.max_steering_rate;
-  return params_.continuous_curvature ? kBend * ramp : 0.0;
-}
+double ManoeuvrePlanner::bendLength() const { return external_command::bendLength(context_.params().vehicle, params_); }
 
 ManoeuvrePlanner::PlacedGrid ManoeuvrePlanner::requireGrid() const {
   const std::string& topic = grid_params_.topic;

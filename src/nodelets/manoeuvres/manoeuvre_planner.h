@@ -48,7 +48,7 @@ class ManoeuvrePlanner {
   /// @throws NotReady  the grid has not come, or is too old.
   Region regionOf(Region::Parts parts) const;
 
-  /// How much of a path before or behind a manoeuvre is to be bent so that steering is gradual there [m].
+  /// How much of a path before or behind a manoeuvre may be bent [m]; see PathJoint.
   double bendLength() const;
 
   /// By when a command that is begun now is to be planned, all its manoeuvres together.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "path_joint.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "external_command/core/pose.h"
@@ -8,6 +9,9 @@
 namespace external_command {
 
 namespace {
+
+constexpr double kRamps = 1.2;      ///< of the longest ramp, half of which lies on the path, as multiple
+constexpr double kMostBend = 10.0;  ///< longer pieces of a lane are seldom arcs [m]
 
 /// @param direction  in which the vehicle drives between the two points.
 EndState passing(const Path& path, std::size_t point, std::size_t bend, Direction direction) {
@@ -22,6 +26,12 @@ EndState passing(const Path& path, std::size_t point, std::size_t bend, Directio
 }
 
 }  // namespace
+
+double bendLength(const VehicleParams& vehicle, const FreeSpaceParams& params) {
+  if (!params.continuous_curvature) return 0.0;
+  const double ramp = params.manoeuvre_speed * vehicle.wheelbase * vehicle.maxKappa() / vehicle.max_steering_rate;
+  return std::min(kRamps * ramp, kMostBend);
+}
 
 PathJoint leavingAt(const Path& path, std::size_t index, double length) {
   if (index == 0) return {index, index, std::nullopt};

@@ -63,6 +63,28 @@ TEST(PathJoint, LeavesThePathAsItIsWhereNoLengthIsWished) {
   EXPECT_EQ(joint.state->bend_length, 0.0);
 }
 
+TEST(PathJoint, BendsAsMuchAsTheSteeringTakes) {
+  VehicleParams vehicle;
+  const FreeSpaceParams params;
+  const double usual = bendLength(vehicle, params);
+  EXPECT_GT(usual, 0.3);
+  EXPECT_LT(usual, 3.0);
+  vehicle.max_steering_rate /= 2.0;
+  EXPECT_NEAR(bendLength(vehicle, params), 2.0 * usual, 1e-9);
+}
+
+TEST(PathJoint, BendsAFewMetresAtMostHoweverSlowTheSteeringIs) {
+  VehicleParams vehicle;
+  vehicle.max_steering_rate = 0.001;
+  EXPECT_EQ(bendLength(vehicle, FreeSpaceParams()), 10.0);
+}
+
+TEST(PathJoint, BendsNothingWhereSteeringNeedNotBeGradual) {
+  FreeSpaceParams params;
+  params.continuous_curvature = false;
+  EXPECT_EQ(bendLength(VehicleParams(), params), 0.0);
+}
+
 TEST(PathJoint, IsAStandstillAtTheEndsOfThePath) {
   const Path path = toAndFro();
   EXPECT_FALSE(leavingAt(path, 0, 1.0).state);
