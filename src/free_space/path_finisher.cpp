@@ -79,7 +79,8 @@ std::optional<PathFinisher::Drive> PathFinisher::withRamps(const Drive& drive, c
   }
   if (drive.ends_beyond) ends.end = drive.to;
   const auto is_allowed = [this](const Pose2d& begin, const Arcs& arcs) { return keepsMargin(begin, arcs); };
-  const auto arcs = withSteeringRamps(from, drive.arcs, ends, vehicle_, {params_.manoeuvre_speed}, is_allowed);
+  const auto stop = [this] { return stop_.isReached(); };
+  const auto arcs = withSteeringRamps(from, drive.arcs, ends, vehicle_, {params_.manoeuvre_speed}, is_allowed, stop);
   if (!arcs) return std::nullopt;
   Drive result = drive;
   result.arcs = *arcs;

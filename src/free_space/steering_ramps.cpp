@@ -240,10 +240,11 @@ struct Part {
   Arcs arcs;  ///< from about the one to about the other
 };
 
-/// @return  nullopt where the end cannot be met.
-std::optional<Arcs> withRamps(const Part& part, const Limits& limits, const CurveCheck& is_allowed) {
+/// @return  nullopt where the end cannot be met, or time is up.
+std::optional<Arcs> withRamps(const Part& part, const Limits& limits, const CurveCheck& is_allowed,
+                              const std::function<bool()>& stop) {
   double share = 1.0;
-  for (int attempt = 1; attempt <= kAttempts; ++attempt, share *= kShorter) {
+  for (int attempt = 1; attempt <= kAttempts && !stop(); ++attempt, share *= kShorter) {
     Ramps ramps(part.begin, part.end, limits, withoutShortArcs(part.arcs, share * kShortArc));
     ramps.setLengths(share);
     if (auto result = allowed(&ramps, is_allowed)) return share < 1.0 ? grown(ramps, *result, is_allowed) : *result;
@@ -255,7 +256,7 @@ std::optional<Arcs> withRamps(const Part& part, const Limits& limits, const Curv
 
 std::optional<Arcs> withSteeringRamps(const Pose2d& from, const Arcs& arcs, const ExactEnds& ends,
                                       const VehicleParams& vehicle, const RampShape& shape,
-                                      const CurveCheck& is_allowed) {
+                                      const CurveCheck& is_allowed, const std::function<bool()>& stop) {
   const Limits limits{vehicle.maxKappa(), vehicle.max_steering_rate / (shape.speed * vehicle.wheelbase), shape.step};
   Arcs result;
   Pose2d begin = from;
@@ -266,7 +267,7 @@ std::optional<Arcs> withSteeringRamps(const Pose2d& from, const Arcs& arcs, cons
     const bool is_first = i == 0 && ends.begin, is_last = i + 1 == parts.size() && ends.end;
     if (is_first) part.begin = *ends.begin;
     if (is_last) part.end = *ends.end;
-    const std::optional<Arcs> ramped = withRamps(part, limits, is_allowed);
+    const std::optional<Arcs> ramped = withRamps(part, limits, is_allowed, stop);
     if (!ramped && (is_first || is_last)) return std::nullopt;
     const Arcs& driven = ramped ? *ramped : part.arcs;
     result.insert(result.end(), driven.begin(), driven.end());

@@ -33,9 +33,10 @@ struct ExactEnds {
 /// continuous-curvature paths", 2004); what they shift the end is taken out again by small changes of the arcs' lengths
 /// and curvatures.
 /// @param is_allowed  called for parts of the curve.
+/// @param stop        once it is true, parts that have no ramps yet stay as they are.
 /// @return  nullopt where an exact end cannot be met; never without any.
 std::optional<Arcs> withSteeringRamps(const Pose2d& from, const Arcs& arcs, const ExactEnds& ends,
                                       const VehicleParams& vehicle, const RampShape& shape,
-                                      const CurveCheck& is_allowed);
+                                      const CurveCheck& is_allowed, const std::function<bool()>& stop);
 
 }  // namespace external_command

@@ -210,7 +210,6 @@ class ManoeuvresTest(unittest.TestCase):
                 self.assertEqual(answer.status.status, CommandStatus.FINISHED, support.describe(answer.status))
                 self.assert_ends_at(answer.path, CHARGING_SPOT)
                 self.assert_wheels_follow(answer.path)
-                self.assert_steers_gradually_where_it_leaves_the_lanes(answer.path)
                 self.assertEqual(answer.path.points[-1].direction, gear)
                 self.assertTrue(answer.report.lane_ids)
 

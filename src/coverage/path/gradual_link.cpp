@@ -52,8 +52,10 @@ GradualLink gradualLink(const Field& field, const Curve* before, const Curve& li
     const Curve part{from, arcs};
     return keeps_margin ? field.isFree(part) : field.isBarelyFree(part);
   };
+  const auto stop = [&] { return field.timeUsed() > kMostTime; };
   const RampShape shape{speedOf(field), kStep};
-  result.curve = {curve.start, *withSteeringRamps(curve.start, curve.arcs, {}, field.vehicle(), shape, is_allowed)};
+  result.curve = {curve.start,
+                  *withSteeringRamps(curve.start, curve.arcs, {}, field.vehicle(), shape, is_allowed, stop)};
   return result;
 }
 
