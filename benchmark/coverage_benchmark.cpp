@@ -129,12 +129,6 @@ std::vector<CoverageCase> fieldsOf(const Options& options) {
   return fields;
 }
 
-/// How long the vehicle drives, with the caps of speed made limits [s].
-double drivingTimeOf(const CoverageCase& field, Path path) {
-  limitSpeeds(field.vehicle, &path);
-  return DrivingTime(field.vehicle, std::make_shared<Path>(std::move(path))).left(0.0, 0.0);
-}
-
 void report(const CoverageCheck& check, double driving, double seconds, double cpu_seconds, Summary* summary) {
   std::printf("area %6.2f  swept %6.2f of %6.2f  overlap %.3f  length %7.0f (%.3f)  turns %4zu  gear changes %3zu",
               1e-4 * check.free_area, 100.0 * check.covered_reachable, 100.0 * check.covered_free, check.overlap,
@@ -151,10 +145,9 @@ void report(const CoverageCheck& check, double driving, double seconds, double c
   summary->driving += driving;
 }
 
-/// With what a controller could not rely on in the path as it would be sent, its caps of speed made limits.
-CoverageCheck checkedAsSent(const CoverageCase& field, const CoverageParams& params, Path path) {
+/// With what a controller could not rely on in the path as it is sent.
+CoverageCheck checkedAsSent(const CoverageCase& field, const CoverageParams& params, const Path& path) {
   CoverageCheck check = checkCoverage(field, path);
-  limitSpeeds(field.vehicle, &path);
   CommandPathLimits limits;
   limits.max_gap = 1.01 * params.spacing;
   const std::string fault = commandPathFault(path, field.vehicle, std::nullopt, limits);
@@ -172,10 +165,12 @@ void runField(const CoverageCase& field, const Options& options, Summary* summar
     const CoverageResult result = CoveragePlanner(field.vehicle, params).plan(field.area(), field.start, {}, {});
     const double cpu_seconds = static_cast<double>(std::clock() - cpu_begin) / CLOCKS_PER_SEC;
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
-    const double driving = drivingTimeOf(field, result.path);
-    report(checkedAsSent(field, params, result.path), driving, elapsed.count(), cpu_seconds, summary);
-    if (!options.paths.empty()) writeCoveragePath(result.path, options.paths + "/" + field.name + ".json");
-    if (!options.drawings.empty()) drawCoverage(field, result.path, options.drawings + "/" + field.name + ".svg");
+    const auto path = std::make_shared<Path>(result.path);
+    limitSpeeds(field.vehicle, path.get());
+    const double driving = DrivingTime(field.vehicle, path).left(0.0, 0.0);
+    report(checkedAsSent(field, params, *path), driving, elapsed.count(), cpu_seconds, summary);
+    if (!options.paths.empty()) writeCoveragePath(*path, options.paths + "/" + field.name + ".json");
+    if (!options.drawings.empty()) drawCoverage(field, *path, options.drawings + "/" + field.name + ".svg");
   } catch (const Error& error) {
     std::printf("FAILED %s: %s\n", toString(error.code()), error.what());
   }

@@ -41,7 +41,7 @@ void VehicleMotion::update(const Pose2d& pose, double now) {
 
 EndError endError(const Pose2d& vehicle, const ReferencePoint& end) {
   const Pose2d relative = relativeTo(end.pose(), vehicle);
-  const double sign = end.direction == Direction::kForward ? 1.0 : -1.0;
+  const double sign = signOf(end.direction);
   return {sign * relative.x, relative.y, relative.heading};
 }
 

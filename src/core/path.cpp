@@ -86,7 +86,7 @@ void setCurvatures(Path* path) {
     const bool ends_leg = i + 1 == points.size() || isCusp(points, i);
     const std::size_t from = i == 0 ? i : i - 1;
     const std::size_t to = ends_leg ? i : i + 1;
-    const double sign = points[to].direction == Direction::kForward ? 1.0 : -1.0;
+    const double sign = signOf(points[to].direction);
     points[i].kappa = sign * turnRate(from, to);
   }
 }

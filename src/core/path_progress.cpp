@@ -40,7 +40,7 @@ void PathProgress::update(const Pose2d& vehicle, double now) {
 double PathProgress::alongBeside(const Pose2d& vehicle) const {
   const Path& path = *path_;
   const ReferencePoint& point = path[reached_];
-  const double gear = point.direction == Direction::kForward ? 1.0 : -1.0;
+  const double gear = signOf(point.direction);
   const double ahead = gear * unitVector(point.heading).dot(vehicle.position() - point.pose().position());
   const double before = path[reached_ > 0 ? reached_ - 1 : 0].s;
   const double behind = path[std::min(reached_ + 1, path.size() - 1)].s;

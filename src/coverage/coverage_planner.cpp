@@ -249,7 +249,7 @@ class PathBuilder {
     std::vector<double> covered{0.0};
     for (std::size_t i = 1; i < points.size(); ++i) {
       const double driven = points[i].s - points[i - 1].s;
-      const double length = points[i].direction == Direction::kReverse ? -driven : driven;
+      const double length = signOf(points[i].direction) * driven;
       const Curve piece{points[i - 1].pose(), {{length, points[i].kappa}}};
       covered.push_back(covered.back() + swept_.sweep(piece, field_.width()));
     }

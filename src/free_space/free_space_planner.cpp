@@ -23,6 +23,7 @@ namespace {
 constexpr double kMaxDistance = 10'000.0;    ///< between start and goals [m]
 constexpr double kMostBent = 100.0;          ///< of a path before the start or after a goal [m]
 constexpr std::size_t kFirstPatience = 150;  ///< trials that make a first path out of what the search found
+constexpr double kForRamps = 0.1;            ///< share of time_budget in which no first path is made better
 constexpr double kFinishing = 3.0;        ///< times what the first path took is kept for the ramps of the improved one
 constexpr double kLeastFinishing = 0.02;  ///< share of time_budget that is kept for them
 constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
@@ -160,9 +161,9 @@ class Planning {
 
   Junctions junctionsOf(std::size_t goal) const {
     Junctions junctions;
-    if (ends_.start) junctions.before = gearOf(*ends_.start), junctions.kappa_before = ends_.start->kappa;
+    if (ends_.start) junctions.before = signOf(ends_.start->direction), junctions.kappa_before = ends_.start->kappa;
     const std::optional<EndState> after = ends_.goals.empty() ? std::nullopt : ends_.goals[goal];
-    if (after) junctions.after = gearOf(*after), junctions.kappa_after = after->kappa;
+    if (after) junctions.after = signOf(after->direction), junctions.kappa_after = after->kappa;
     return junctions;
   }
 
@@ -256,7 +257,8 @@ class Planning {
   void consider(const Approach& approach, const Arcs& arcs, Solution* best) const {
     Arcs better = arcs;
     if (params_.planner == "portfolio") {
-      WorkBudget budget(kUnlimited, stop_);
+      const double for_ramps = params_.continuous_curvature ? kForRamps * params_.time_budget : 0.0;
+      WorkBudget budget(kUnlimited, stop_.sooner(for_ramps));
       better = PathImprover(scene_, cost_, approach.query, params_.seed).improve(arcs, kFirstPatience, &budget);
     }
     const double cost = cost_.of(start_, better, approach.query.junctions);

@@ -38,7 +38,7 @@ bool isAt(const ReferencePoint& point, const Pose2d& pose) {
 }
 
 std::optional<std::string> faultOf(const Step& step, const ReferencePoint& to, const PathDemands& demands) {
-  const double sign = to.direction == Direction::kForward ? 1.0 : -1.0;
+  const double sign = signOf(to.direction);
   if (sign * step.forward < -kSlip) return "drives against its gear";
   if (std::abs(step.sideways) > kSlip) return text("slips sideways by ", metres(std::abs(step.sideways)));
   if (std::abs(step.forward) > demands.spacing + kSlip) return text("jumps by ", metres(std::abs(step.forward)));

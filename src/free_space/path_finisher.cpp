@@ -31,7 +31,6 @@ PathFinisher::PathFinisher(const Scene& scene, const DrivingCost& cost, const Ve
 FreeSpacePlan PathFinisher::finish(const FoundWay& way) const {
   const std::vector<Drive> drives = drivesOf(way);
   for (const Drive& drive : drives) {
-    if (!params_.continuous_curvature) break;
     const std::optional<Drive> gradual = withRamps(drive, way.query.start);
     if (!gradual) continue;
     if (Checked result = checked(way, *gradual); result.fault.empty()) return std::move(result.plan);
@@ -47,9 +46,9 @@ std::vector<PathFinisher::Drive> PathFinisher::drivesOf(const FoundWay& way) con
   const Drive plain{way.query.start, merged(way.arcs), way.query.goal};
   if (plain.arcs.empty()) return {plain};
   const auto canBend = [](const EndState& end, const ArcSegment& arc) {
-    return end.bend_length > 0.0 && gearOf(end) == gearOf(arc);
+    return end.bend_length > 0.0 && signOf(end.direction) == gearOf(arc);
   };
-  const auto piece = [](const EndState& end) { return ArcSegment{gearOf(end) * end.bend_length, end.kappa}; };
+  const auto piece = [](const EndState& end) { return ArcSegment{signOf(end.direction) * end.bend_length, end.kappa}; };
   const bool goes_on = !ends_.goals.empty() && ends_.goals[way.goal_index];
   const EndState* const after = goes_on ? &*ends_.goals[way.goal_index] : nullptr;
   const bool can_begin = ends_.start && canBend(*ends_.start, plain.arcs.front());
@@ -69,8 +68,9 @@ std::vector<PathFinisher::Drive> PathFinisher::drivesOf(const FoundWay& way) con
 }
 
 /// @param start  of the way: where the piece before it ends.
-/// @return  nullopt where it cannot begin and end where it has to.
+/// @return  nullopt where it cannot begin and end where it has to, and where steering need not be gradual.
 std::optional<PathFinisher::Drive> PathFinisher::withRamps(const Drive& drive, const Pose2d& start) const {
+  if (!params_.continuous_curvature) return std::nullopt;
   ExactEnds ends;
   Pose2d from = drive.from;
   if (drive.begins_before) {

@@ -44,6 +44,4 @@ class PathFinisher {
   const StopCondition& stop_;
 };
 
-inline int gearOf(const EndState& state) { return state.direction == Direction::kForward ? 1 : -1; }
-
 }  // namespace external_command

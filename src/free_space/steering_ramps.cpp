@@ -257,7 +257,7 @@ std::optional<Arcs> withRamps(const Part& part, const Limits& limits, const Curv
 std::optional<Arcs> withSteeringRamps(const Pose2d& from, const Arcs& arcs, const ExactEnds& ends,
                                       const VehicleParams& vehicle, const RampShape& shape,
                                       const CurveCheck& is_allowed, const std::function<bool()>& stop) {
-  const Limits limits{vehicle.maxKappa(), vehicle.max_steering_rate / (shape.speed * vehicle.wheelbase), shape.step};
+  const Limits limits{vehicle.maxKappa(), vehicle.maxKappa() / vehicle.rampLength(shape.speed), shape.step};
   Arcs result;
   Pose2d begin = from;
   const std::vector<Arcs> parts = partsOf(arcs);

@@ -18,7 +18,7 @@ constexpr double kRounding = 1e-6;  // of a distance [m]
 /// Straight from `from` over `length` [m], forward or in reverse.
 Path straightPath(const Pose2d& from, double length, Direction direction, double spacing,
                   const VehicleParams& vehicle) {
-  const double sign = direction == Direction::kForward ? 1.0 : -1.0;
+  const double sign = signOf(direction);
   const int steps = std::max(1, static_cast<int>(std::ceil(length / spacing)));
   Path path;
   for (int i = 0; i <= steps; ++i) {

@@ -18,7 +18,7 @@ bool stopsAt(const Path& path, std::size_t i) {
 }
 
 std::string goesOn(const ReferencePoint& from, const ReferencePoint& to, const CommandPathLimits& limits) {
-  const double gear = to.direction == Direction::kForward ? 1.0 : -1.0;
+  const double gear = signOf(to.direction);
   const Pose2d seen = relativeTo(from.pose(), to.pose());
   const double chord = seen.position().norm(), rise = to.s - from.s;
   if (chord > limits.max_gap) return text("lies ", chord, " m from the one before");

@@ -38,7 +38,7 @@ testing::AssertionResult stepIsDrivable(const ReferencePoint& from, const Refere
                                         const VehicleParams& vehicle, const PathLimits& limits) {
   const Twist twist = twistBetween(from.pose(), to.pose());
   const double length = std::abs(twist.forward);
-  const double gear = to.direction == Direction::kForward ? 1.0 : -1.0;
+  const double gear = signOf(to.direction);
   if (gear * twist.forward < -1e-6) return testing::AssertionFailure() << "moves against its gear";
   if (length > limits.max_gap + 1e-6) return testing::AssertionFailure() << "jumps by " << length << " m";
   if (std::abs(twist.sideways) > limits.slip) {

@@ -12,6 +12,9 @@ namespace external_command {
 
 enum class Direction : std::int8_t { kForward = 1, kReverse = -1 };
 
+/// 1 forward, -1 in reverse.
+inline int signOf(Direction direction) { return static_cast<int>(direction); }
+
 /// One point of a reference path of the rear-axle centre.
 struct ReferencePoint {
   double x = 0.0;        ///< [m]

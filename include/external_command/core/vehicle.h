@@ -24,6 +24,9 @@ struct VehicleParams {
   double length() const { return rear_overhang + wheelbase + front_overhang; }
   double maxKappa() const { return 1.0 / min_turning_radius; }
 
+  /// How far it drives at `speed` [m/s], at most, while it turns its wheels from straight on to full lock [m].
+  double rampLength(double speed) const { return speed * wheelbase * maxKappa() / max_steering_rate; }
+
   /// @throws InvalidParameter  a value is not finite or out of range; the text names it as `vehicle/<key>`.
   void validate() const;
 };

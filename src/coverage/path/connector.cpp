@@ -171,7 +171,7 @@ std::optional<Curve> Connector::searchWithin(const std::optional<BoundingBox>& b
     for (std::size_t i = 1; i < result.path.size(); ++i) {
       const ReferencePoint& point = result.path[i];
       const double length = point.s - result.path[i - 1].s;
-      curve.append({point.direction == Direction::kReverse ? -length : length, point.kappa});
+      curve.append({signOf(point.direction) * length, point.kappa});
     }
     return curve;
   } catch (const Cancelled&) {

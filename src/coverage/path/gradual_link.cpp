@@ -21,18 +21,12 @@ double speedOf(const Field& field) {
       {field.params().turn_speed, vehicle.max_speed, std::sqrt(vehicle.max_lateral_acceleration / vehicle.maxKappa())});
 }
 
-/// The length of a ramp from straight on to full lock [m].
-double wholeRamp(const Field& field) {
-  const VehicleParams& vehicle = field.vehicle();
-  return speedOf(field) * vehicle.wheelbase * vehicle.maxKappa() / vehicle.max_steering_rate;
-}
-
 bool isReverse(const ArcSegment& arc) { return arc.length < 0.0; }
 
 }  // namespace
 
 GradualLink gradualLink(const Field& field, const Curve* before, const Curve& link, const Curve& after) {
-  const double ramp = wholeRamp(field);
+  const double speed = speedOf(field), ramp = field.vehicle().rampLength(speed);
   GradualLink result{link, 0.0, 0.0};
   if (ramp <= 0.0 || link.arcs.empty() || field.timeUsed() > kMostTime) return result;
   // A ramp lies half on either side of a jump, and takes no more than 0.9 of an arc.
@@ -53,7 +47,7 @@ GradualLink gradualLink(const Field& field, const Curve* before, const Curve& li
     return keeps_margin ? field.isFree(part) : field.isBarelyFree(part);
   };
   const auto stop = [&] { return field.timeUsed() > kMostTime; };
-  const RampShape shape{speedOf(field), kStep};
+  const RampShape shape{speed, kStep};
   result.curve = {curve.start,
                   *withSteeringRamps(curve.start, curve.arcs, {}, field.vehicle(), shape, is_allowed, stop)};
   return result;

@@ -18,7 +18,7 @@ EndState passing(const Path& path, std::size_t point, std::size_t bend, Directio
   EndState state{direction, path[point].kappa};
   if (point == bend) return state;
   const double driven = path[point].s - path[bend].s;  // below 0 behind the point
-  const double gear = direction == Direction::kForward ? 1.0 : -1.0;
+  const double gear = signOf(direction);
   state.kappa = gear * angleBetween(path[bend].heading, path[point].heading) / driven;
   state.bend_from = path[bend].pose();
   state.bend_length = std::abs(driven);
@@ -29,8 +29,7 @@ EndState passing(const Path& path, std::size_t point, std::size_t bend, Directio
 
 double bendLength(const VehicleParams& vehicle, const FreeSpaceParams& params) {
   if (!params.continuous_curvature) return 0.0;
-  const double ramp = params.manoeuvre_speed * vehicle.wheelbase * vehicle.maxKappa() / vehicle.max_steering_rate;
-  return std::min(kRamps * ramp, kMostBend);
+  return std::min(kRamps * vehicle.rampLength(params.manoeuvre_speed), kMostBend);
 }
 
 PathJoint leavingAt(const Path& path, std::size_t index, double length) {

@@ -20,7 +20,7 @@ void expectMeets(const Path& path, const PathJoint& joint, bool is_before) {
   ASSERT_TRUE(joint.state);
   const Pose2d from = is_before ? joint.state->bend_from : path[joint.point].pose();
   const Pose2d to = is_before ? path[joint.point].pose() : joint.state->bend_from;
-  const double gear = joint.state->direction == Direction::kForward ? 1.0 : -1.0;
+  const double gear = signOf(joint.state->direction);
   const Pose2d end = advance(from, ArcSegment{gear * joint.state->bend_length, joint.state->kappa});
   EXPECT_NEAR((end.position() - to.position()).norm(), 0.0, 1e-6);
   EXPECT_NEAR(angleBetween(end.heading, to.heading), 0.0, 1e-6);
