@@ -196,17 +196,15 @@ TEST_F(Cancel, KeepsAPlanFromBeingSentThatDoesNotNotice) {
 }
 
 TEST_F(Cancel, EndsWhatWaitsForAThread) {
-  const auto gate = planner_->holdPlans(false);
-  std::vector<std::future<CommandStatus>> plans;
-  for (int i = 1; i <= 2; ++i) plans.push_back(plan(i));
-  ASSERT_TRUE(gate->waitForEntered(2));
+  HeldPlan older = startHeldPlan(1, false);
+  HeldPlan newer = startHeldPlan(2, false);
   Inbox<CommandStatus> statuses("external_command/status");
   auto waiting = plan(7);
   ASSERT_TRUE(statuses.waitFor(1, [](const CommandStatus& status) { return status.command_id == 7; }));
   EXPECT_TRUE(cancel(7).was_running);
   expectCancelled(waiting.get(), 7);
-  gate->open();
-  for (auto& planned : plans) planned.get();
+  older.gate->open();
+  newer.gate->open();
 }
 
 TEST_F(Cancel, EndsAnOlderPlanThoughTheNewerWaitsForAThreadThatAnotherVehicleHas) {
@@ -263,10 +261,10 @@ TEST_F(Cancel, EndsADryRun) {
 }
 
 TEST_F(Cancel, IsAnsweredAtOnceWhileAsMuchAsCanBeIsPlanned) {
-  const auto gate = planner_->holdPlans(false);
-  std::vector<std::future<CommandStatus>> plans;
-  for (int i = 1; i <= 8; ++i) plans.push_back(plan(i));
-  ASSERT_TRUE(gate->waitForEntered(2));
+  HeldPlan older = startHeldPlan(1, false);
+  HeldPlan newer = startHeldPlan(2, false);
+  std::vector<std::future<CommandStatus>> waiting;
+  for (int i = 3; i <= 8; ++i) waiting.push_back(plan(i));
   double slowest = 0.0;
   for (int i = 0; i < 50; ++i) {
     const ros::SteadyTime begin = ros::SteadyTime::now();
@@ -274,8 +272,8 @@ TEST_F(Cancel, IsAnsweredAtOnceWhileAsMuchAsCanBeIsPlanned) {
     slowest = std::max(slowest, (ros::SteadyTime::now() - begin).toSec());
   }
   EXPECT_LT(slowest, kLatest);
-  gate->open();
-  for (auto& planned : plans) planned.get();
+  older.gate->open();
+  newer.gate->open();
 }
 
 TEST_F(Cancel, ClearsTheMotionThatIsDriven) {

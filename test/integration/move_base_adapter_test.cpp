@@ -14,6 +14,7 @@
 
 #include "external_command/PlanningCommand.h"
 #include "support/blocking_nodelets.h"
+#include "support/comes_true.h"
 #include "support/inbox.h"
 #include "support/nodelet_manager.h"
 
@@ -73,10 +74,7 @@ class MoveBaseGoal : public MoveBaseAdapterLoaded {
     MoveBaseAdapterLoaded::SetUp();
     gate_ = lane_follow_->holdPlans(false);
     publisher_ = ros::NodeHandle().advertise<geometry_msgs::PoseStamped>(kGoalTopic, 1);
-    const auto latest = std::chrono::steady_clock::now() + kLongest;
-    while (publisher_.getNumSubscribers() == 0 && std::chrono::steady_clock::now() < latest) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
+    ASSERT_TRUE(comesTrue([this] { return publisher_.getNumSubscribers() > 0; }));
     publishGoal();
     ASSERT_TRUE(gate_->waitForEntered(1));
     publishGoal();

@@ -6,22 +6,14 @@
 #include <atomic>
 #include <future>
 #include <set>
+#include <thread>
+
+#include "support/comes_true.h"
 
 namespace external_command {
 namespace {
 
 using std::chrono::milliseconds;
-
-/// True as soon as `condition()` is; false where it is not within 20 s.
-template <class Condition>
-bool comes(const Condition& condition) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(milliseconds(1));
-  }
-  return true;
-}
 
 std::atomic<int> living{0};  // threads of crews
 struct Life {
@@ -34,7 +26,7 @@ TEST(ThreadCrew, DoesAPieceOfWorkForEachCall) {
   std::atomic<int> done{0};
   ThreadCrew crew({3, live, [&] { ++done; }});
   for (int i = 0; i < 1000; ++i) crew.call();
-  EXPECT_TRUE(comes([&] { return done == 1000; })) << done;
+  EXPECT_TRUE(comesTrue([&] { return done == 1000; })) << done;
   crew.stop();
   EXPECT_EQ(done, 1000);
   EXPECT_EQ(living, 0);
@@ -48,25 +40,25 @@ TEST(ThreadCrew, MakesThreadsForABurstAndNoMoreThanItMay) {
                      ++in_work;
                      has_end.wait();
                    }});
-  EXPECT_TRUE(comes([] { return living == 1; }));
+  EXPECT_TRUE(comesTrue([] { return living == 1; }));
   for (int i = 0; i < 9; ++i) crew.call();
-  EXPECT_TRUE(comes([&] { return in_work == 5; })) << in_work;
+  EXPECT_TRUE(comesTrue([&] { return in_work == 5; })) << in_work;
   EXPECT_EQ(living, 5);
   end.set_value();
-  EXPECT_TRUE(comes([&] { return in_work == 9; })) << in_work << ": what waited is done too";
+  EXPECT_TRUE(comesTrue([&] { return in_work == 9; })) << in_work << ": what waited is done too";
 }
 
 TEST(ThreadCrew, EndsTheThreadsOfABurstAndMakesThemAgainForTheNext) {
   std::atomic<int> in_work{0}, wanted{0};
   const auto work = [&] {
     ++in_work;
-    comes([&] { return in_work >= wanted; });
+    comesTrue([&] { return in_work >= wanted; });
   };
   ThreadCrew crew({8, live, work, milliseconds(20)});
   for (wanted = 8; wanted <= 24; wanted += 8) {
     for (int i = 0; i < 8; ++i) crew.call();
-    EXPECT_TRUE(comes([&] { return in_work == wanted; })) << in_work << " of " << wanted;
-    EXPECT_TRUE(comes([] { return living == 2; })) << living;
+    EXPECT_TRUE(comesTrue([&] { return in_work == wanted; })) << in_work << " of " << wanted;
+    EXPECT_TRUE(comesTrue([] { return living == 2; })) << living;
   }
 }
 
@@ -83,7 +75,7 @@ TEST(ThreadCrew, LeavesWorkThatComesOneAfterTheOtherToFewThreads) {
                    }});
   for (int i = 1; i <= 500; ++i) {
     crew.call();
-    ASSERT_TRUE(comes([&] { return done == i; }));
+    ASSERT_TRUE(comesTrue([&] { return done == i; }));
   }
   EXPECT_LT(workers.size(), 10U) << "one, and a few more where it had not sat down yet";
 }

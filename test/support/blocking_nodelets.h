@@ -24,16 +24,18 @@
 
 namespace external_command {
 
-/// Keeps those who pass it until the test opens it. Thread-safe.
+/// Keeps those who pass it until the test opens it, or has failed without: after 60 s. Thread-safe.
 class TestGate {
  public:
   /// Returns once the gate is open, or `gives_up()` is true.
   void pass(const std::function<bool()>& gives_up) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    const auto isOver = [&] { return gives_up() || std::chrono::steady_clock::now() > end; };
     std::unique_lock<std::mutex> lock(mutex_);
     ++entered_;
     changed_.notify_all();
     // What makes it give up notifies nobody, so it is looked at often.
-    while (!is_open_ && !gives_up()) changed_.wait_for(lock, std::chrono::milliseconds(1));
+    while (!is_open_ && !isOver()) changed_.wait_for(lock, std::chrono::milliseconds(1));
     ++left_;
     changed_.notify_all();
   }

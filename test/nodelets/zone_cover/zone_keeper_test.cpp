@@ -15,6 +15,7 @@
 #include <string>
 #include <thread>
 
+#include "support/comes_true.h"
 #include "support/zone_plans.h"
 
 namespace {
@@ -49,16 +50,6 @@ class ZoneKeeperTest : public testing::Test {
 
   std::size_t filesInFolder() const {
     return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
-  }
-
-  template <class Condition>
-  static bool comesTrue(const Condition& condition) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-    while (!condition()) {
-      if (std::chrono::steady_clock::now() > end) return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-    return true;
   }
 
   const std::string folder_ = "/tmp/external_command_zone_keeper_test_" + std::to_string(getpid());
