@@ -148,7 +148,6 @@ class Drive:
         if overlay:
             overlay.show_path(progress.points())
             ids = rospy.wait_for_message(SERVICE + "map_ids", MarkerArray, START_TIMEOUT)
-            camera.captions.show(self._scene, ids.markers, self.lane_ids)
         late = PICTURE_AT * progress.left
         photographer = threading.Thread(target=camera.take if camera else lambda: None, daemon=True)  # nobody waits for it
         is_over = False
@@ -159,6 +158,7 @@ class Drive:
                   f"{status.message}", flush=True)
             if overlay:
                 overlay.publish()
+                camera.captions.show(self._scene, ids.markers, self.lane_ids)  # of what is drawn by now
             if photographer.ident is None and (is_over or progress.left < late):
                 photographer.start()
         photographer.join()
