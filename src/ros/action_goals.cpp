@@ -134,7 +134,10 @@ void ActionGoals::noteChange(CommandSerial serial, const CommandStatus& status) 
   for (const auto& [id, goal] : goals_) {
     if (goal->serial == serial) concerned.push_back(goal);
   }
-  for (const GoalPtr& goal : concerned) note(goal, status);
+  if (concerned.empty()) return;
+  // While this waited for its turn, a tick may have told what is newer: progress must not seem to go back.
+  const CommandStatus newest = hasEnded(status) ? status : statusOf(serial);
+  for (const GoalPtr& goal : concerned) note(goal, newest);
 }
 
 void ActionGoals::note(const GoalPtr& goal, const CommandStatus& status) {
