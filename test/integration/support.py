@@ -74,6 +74,7 @@ class Collector:
         self._subscriber = rospy.Subscriber(topic, message_type, self._add)
         if connected:
             wait_until(lambda: self._subscriber.get_num_connections() > 0, "a publisher of " + topic)
+            time.sleep(0.02)  # roscpp answers a new subscriber a moment before it sends it anything
 
     def _add(self, message):
         with self._lock:
