@@ -136,8 +136,9 @@ void ActionGoals::noteChange(CommandSerial serial, const CommandStatus& status) 
   }
   if (concerned.empty()) return;
   // While this waited for its turn, a tick may have told what is newer: progress must not seem to go back.
-  const CommandStatus newest = hasEnded(status) ? status : statusOf(serial);
-  for (const GoalPtr& goal : concerned) note(goal, newest);
+  const std::optional<CommandStatus> newest = hasEnded(status) ? status : context_.registry().statusOf(serial);
+  if (!newest) return;  // forgotten since: how it ended is the next in this line
+  for (const GoalPtr& goal : concerned) note(goal, *newest);
 }
 
 void ActionGoals::note(const GoalPtr& goal, const CommandStatus& status) {
