@@ -101,12 +101,12 @@ class WaitingRequests {
  public:
   WaitingRequests(PlanningPool* pool, Kind kind) : pool_(pool), kind_(kind) {}
 
-  /// Returns when it waits.
+  /// Returns when it waits and has its place in the line, which it has once its first check is over: before the second.
   void add(const std::string& vehicle) {
     const auto waits = std::make_shared<std::promise<void>>();
-    served_.push_back(std::async(std::launch::async, [this, vehicle, waits, has_told = false]() mutable {
+    served_.push_back(std::async(std::launch::async, [this, vehicle, waits, checks = 0]() mutable {
       const auto slot = pool_->take(vehicle, kind_, [&] {
-        if (!std::exchange(has_told, true)) waits->set_value();
+        if (++checks == 2) waits->set_value();
       });
       const std::lock_guard<std::mutex> lock(mutex_);
       order_.push_back(vehicle);
