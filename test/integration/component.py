@@ -12,16 +12,23 @@ from processes import Node
 LANE_FOLLOW = "external_command/LaneFollowCommandProcessor"
 
 
+def read(*path):
+    """What a YAML file of the package holds."""
+    with open(os.path.join(rospkg.RosPack().get_path("external_command"), *path), encoding="utf-8") as file:
+        return yaml.safe_load(file)
+
+
 def configuration(**changes):
     """The parameters of the files in config/, with `changes` of the component's own."""
-    folder = os.path.join(rospkg.RosPack().get_path("external_command"), "config")
-
-    def read(name):
-        with open(os.path.join(folder, name), encoding="utf-8") as file:
-            return yaml.safe_load(file)
-    parameters = read("external_command.yaml")
-    parameters["external_command"].update(read("processors.yaml"), vehicle=read("vehicle.yaml"), **changes)
+    parameters = read("config", "external_command.yaml")
+    own = dict(read("config", "processors.yaml"), vehicle=read("config", "vehicle.yaml"))
+    parameters["external_command"].update(own, **changes)
     return parameters
+
+
+def patient(processor, **others):
+    """Parameters of a processor that plans on a slow or busy machine too, beside `others`."""
+    return dict(read("test", "support", "patient.yaml")[processor], **others)
 
 
 class Component(Node):

@@ -10,7 +10,7 @@ import rostest
 from nav_msgs.msg import OccupancyGrid
 
 import support
-from component import Component
+from component import Component, patient
 from external_command.msg import CommandStatus, Pose, ValetParkingCommand
 from external_command.srv import ValetParking
 
@@ -35,7 +35,7 @@ def grid(around, value, frame="map", stamp=None, side=20.0):
 
 
 def parking(**parameters):
-    own = dict(parameters, obstacle_grid_name="grid")
+    own = patient("valet_parking_command_processor", obstacle_grid_name="grid", **parameters)
     return Component(NAMESPACE, {
         "external_command": {"processors": ["external_command/ValetParkingCommandProcessor"], "map_file": TOWN},
         "valet_parking_command_processor": own})

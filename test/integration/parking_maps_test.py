@@ -12,7 +12,7 @@ import rospy
 import rostest
 
 import support
-from component import Component
+from component import Component, patient
 from external_command import map_file
 from external_command.msg import CommandStatus, Pose, ValetParkingCommand
 from external_command.srv import ValetParking
@@ -32,7 +32,8 @@ def space(name, corners, heading):
 
 def valet_parking_on(path):
     processors = ["external_command/ValetParkingCommandProcessor"]
-    return Component("/parking_maps", {"external_command": {"processors": processors, "map_file": path}})
+    return Component("/parking_maps", {"external_command": {"processors": processors, "map_file": path},
+                                       "valet_parking_command_processor": patient("valet_parking_command_processor")})
 
 
 class ParkingMapsTest(unittest.TestCase):

@@ -6,7 +6,6 @@ import unittest
 
 import rospy
 import rostest
-from geometry_msgs.msg import PoseWithCovarianceStamped
 
 import support
 from external_command.msg import CommandStatus, LaneFollowCommand, Pose
@@ -21,23 +20,6 @@ class PathStartsTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.vehicle = Vehicle()
-        cls.initial_pose = rospy.Publisher("initialpose", PoseWithCovarianceStamped, queue_size=1)
-        support.wait_until(lambda: cls.initial_pose.get_num_connections() > 0, "the vehicle takes poses")
-
-    def place(self, x, y, heading):
-        message = PoseWithCovarianceStamped()
-        message.pose.pose.position.x, message.pose.pose.position.y = x, y
-        message.pose.pose.orientation.z = math.sin(heading / 2.0)
-        message.pose.pose.orientation.w = math.cos(heading / 2.0)
-        self.initial_pose.publish(message)
-        support.wait_until(lambda: math.hypot(self.vehicle.pose[0] - x, self.vehicle.pose[1] - y) < 1e-3, "it is there")
-        # The component hears of the pose in its own time.
-        support.wait_until(lambda: self.knows(x, y), "the component knows the pose")
-
-    def knows(self, x, y):
-        answer = self.follow(dry_run=True)
-        points = answer.path.points
-        return bool(points) and math.hypot(points[0].x - x, points[0].y - y) < 25.0
 
     @staticmethod
     def follow(end_pose=EAST_END, **fields):
@@ -49,7 +31,7 @@ class PathStartsTest(unittest.TestCase):
         self.assertLess(abs(math.remainder(points[0].heading - heading, 2.0 * math.pi)), 0.02)
 
     def assert_drives_from(self, x, y, heading):
-        self.place(x, y, heading)
+        self.vehicle.place(x, y, heading)
         planned = self.follow(dry_run=True)
         self.assertEqual(planned.status.error_code, CommandStatus.OK, support.describe(planned.status))
         self.assertEqual(planned.report.warnings, [])
@@ -67,14 +49,14 @@ class PathStartsTest(unittest.TestCase):
         self.assert_drives_from(150.0, 190.5, 0.0)
 
     def test_too_far_off_the_lanes_for_a_manoeuvre_is_told_with_the_distance(self):
-        self.place(150.0, 180.0, 0.0)
+        self.vehicle.place(150.0, 180.0, 0.0)
         answer = self.follow(dry_run=True)
         self.assertEqual(answer.status.error_code, CommandStatus.OK, support.describe(answer.status))
         self.assertTrue(any("m from the vehicle: no manoeuvre leads there" in warning
                             for warning in answer.report.warnings), answer.report.warnings)
 
     def test_a_path_that_is_too_long_is_refused(self):
-        self.place(90.0, 194.75, 0.0)
+        self.vehicle.place(90.0, 194.75, 0.0)
         answer = self.follow(way_point=[EAST_END, Pose(x=90.0, y=194.75)] * 200, dry_run=True)
         self.assertEqual(answer.status.error_code, CommandStatus.INVALID_REQUEST, support.describe(answer.status))
         self.assertIn("~routing/max_path_length", answer.status.message)

@@ -44,15 +44,21 @@ class Vehicle:
         return transform.translation.x, transform.translation.y, 2.0 * math.atan2(q.z, q.w)
 
     def place(self, x, y, heading=0.0):
-        """Puts it there, and waits until the component knows."""
-        message = PoseWithCovarianceStamped()
-        message.pose.pose.position.x, message.pose.pose.position.y = x, y
-        message.pose.pose.orientation.z = math.sin(heading / 2.0)
-        message.pose.pose.orientation.w = math.cos(heading / 2.0)
-        support.wait_until(lambda: self._initial_pose.get_num_connections() > 0, "the vehicle takes poses")
-        self._initial_pose.publish(message)
-        support.wait_until(lambda: math.hypot(self.pose[0] - x, self.pose[1] - y) < 1e-3, "the vehicle is there")
+        """Puts it there, and waits until the component knows. One that stands there already is told nothing: nobody could
+        see when it has heard it, and while it drives that would end its command."""
+        if not self.is_at(x, y, heading):
+            message = PoseWithCovarianceStamped()
+            message.pose.pose.position.x, message.pose.pose.position.y = x, y
+            message.pose.pose.orientation.z = math.sin(heading / 2.0)
+            message.pose.pose.orientation.w = math.cos(heading / 2.0)
+            support.wait_until(lambda: self._initial_pose.get_num_connections() > 0, "the vehicle takes poses")
+            self._initial_pose.publish(message)
+            support.wait_until(lambda: self.is_at(x, y, heading), "the vehicle is there")
         support.wait_until(lambda: self._component_sees_it_at(x, y), "the component knows where the vehicle is")
+
+    def is_at(self, x, y, heading):
+        turned = math.remainder(self.pose[2] - heading, 2.0 * math.pi)
+        return math.hypot(self.pose[0] - x, self.pose[1] - y) < 1e-3 and abs(turned) < 1e-3
 
     def _component_sees_it_at(self, x, y):
         command = PathFollowCommand(way_point=[Point(0.0, 0.0, 0.0), Point(10.0, 0.0, 0.0)], dry_run=True)
