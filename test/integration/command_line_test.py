@@ -51,7 +51,7 @@ class CommandLineTest(unittest.TestCase):
         self.client.clear()
 
     def test_watch_shows_how_far_a_command_has_come_and_its_end(self):
-        code, (answer,) = run_json("lane-follow --to 300 195")
+        code, (answer,) = run_json("lane-follow --to 480 338.25")  # so far that `watch` has begun before
         self.assertEqual((code, answer["status"]["status_name"]), (0, "RUNNING"))
         command_id = answer["status"]["command_id"]
         code, shown = run_json("watch")
