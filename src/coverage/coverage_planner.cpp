@@ -12,6 +12,7 @@
 #include "coverage/order/plan.h"
 #include "coverage/path/connector.h"
 #include "coverage/path/gradual_link.h"
+#include "coverage/path/turns.h"
 #include "external_command/core/error.h"
 #include "external_command/core/text.h"
 

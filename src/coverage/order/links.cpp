@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "coverage/path/connector.h"
+#include "coverage/path/turns.h"
 
 namespace external_command {
 

@@ -2,18 +2,11 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "coverage/field/field.h"
 #include "curve.h"
 
 namespace external_command {
-
-/// Ways from pose to pose as if nothing were in the way, cheapest first, for a vehicle that arrives and leaves forward:
-/// the Reeds-Shepp words, and those of Dubins, which hold loops that turn forward only. Never empty.
-/// @param gear_price  of a change of gear, as length [m].
-std::vector<SteeringCurve> turnsWithoutObstacles(const Pose2d& from, const Pose2d& to, double radius,
-                                                 double gear_price);
 
 /// Finds turns and transfers: ways for the vehicle from pose to pose within the area.
 class Connector {
@@ -29,8 +22,6 @@ class Connector {
 
  private:
   std::optional<Curve> turn(const Pose2d& from, const Pose2d& to) const;
-  std::optional<Curve> shortTurn(const Pose2d& from, const Pose2d& to) const;
-  std::optional<Curve> shiftedTurn(const Pose2d& from, const Pose2d& to) const;
   std::optional<Curve> leave(const Pose2d& from, const Pose2d& to) const;
   std::optional<Curve> search(const Pose2d& from, const Pose2d& to) const;
   std::optional<Curve> searchNearAndFar(const Pose2d& from, const Pose2d& to) const;
