@@ -43,9 +43,9 @@ double sizeOf(const Field& field, double area) {
 
 /// @param size  as sizeOf().
 Effort effortFor(double size) {
-  if (size < 1500.0) return {{3.0, 4.0, 6.0, 8.0, 12.0, 20.0}, 1, 3, {1.0, 3.0}, 4, 6, true};
-  if (size < 3000.0) return {{3.0, 5.0, 8.0, 12.0, 20.0}, 1, 2, {1.0, 4.0}, 3, 5, true};
-  if (size < 5000.0) return {{3.0, 5.0, 8.0, 12.0, 20.0}, 1, 2, {1.0}, 2, 4, true};
+  if (size < 1500.0) return {{3.0, 4.0, 6.0, 8.0, 12.0, 20.0}, 1, 3, {1.0, 3.0}, 4, 18, true};
+  if (size < 3000.0) return {{3.0, 5.0, 8.0, 12.0, 20.0}, 1, 2, {1.0, 4.0}, 3, 15, true};
+  if (size < 5000.0) return {{3.0, 5.0, 8.0, 12.0, 20.0}, 1, 2, {1.0}, 2, 12, true};
   return {{4.0}, 0, 2, {1.0}, 1, 1};
 }
 

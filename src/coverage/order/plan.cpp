@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <set>
 
 #include "coverage/field/tally.h"
 #include "coverage/field/uncovered.h"
@@ -19,6 +18,7 @@ constexpr int kMostDead = 10;   ///< rounds of leaving out what no way leads to
 constexpr double kTimeForChanges = 0.65;  ///< share of the budget after which a plan is settled as it is
 constexpr double kTimeForGaps = 0.72;     ///< the same for the gaps
 constexpr double kMoreForGaps = 0.02;     ///< of length, as share
+constexpr int kRoundsForGaps = 3;         ///< of refining once the gaps are filled
 constexpr int kRounds = 4;                ///< of swaths for what is left
 constexpr double kCheapTurn = 0.3;        ///< price of a turn in their search, in radii: the tour knows the real one
 constexpr double kGapTurn = 3.0;          ///< the same in the search for swaths in a gap: a strip is not swept across
@@ -44,16 +44,14 @@ class Planner {
   Plan settle(int rounds) {
     is_settled_ = true;
     count();
-    for (int round = 0; round < rounds && settleLinks(); ++round) {
-      if (field_.timeUsed() > kTimeForChanges) break;
-      links_.doubtGuesses();
-      improve();
-      chooseWays();
-      if (round == 1) putIn();
-      leaveOut();
+    refine(rounds);
+    if (rounds > 1 && field_.timeUsed() < kTimeForChanges) {
+      putIn();
+      refine(rounds);
     }
     fillGaps();
-    for (int round = 0; round < kMostDead && settleLinks(); ++round) leaveOut();
+    is_filled_ = true;
+    refine(std::min(rounds, kRoundsForGaps));
     plan_.links.clear();
     for (long i = 0; at(i) != nullptr; ++i) plan_.links.push_back(links_.way(at(i - 1), at(i)));
     return finish();
@@ -76,6 +74,41 @@ class Planner {
     bool changed = false;
     for (long i = 0; at(i) != nullptr; ++i) changed = links_.settle(at(i - 1), at(i)) || changed;
     return changed;
+  }
+
+  /// Makes the plan better by what is known of the ways, and leaves out what none leads to.
+  void refine(int rounds) {
+    best_.clear();
+    for (int round = 0; round < rounds && (settleLinks() || round == 0); ++round) {
+      remember();
+      if (field_.timeUsed() > kTimeForChanges) break;
+      links_.doubtGuesses();
+      improve();
+      chooseWays();
+      leaveOut();
+    }
+    for (int round = 0; round < kMostDead && settleLinks(); ++round) {
+      remember();
+      leaveOut();
+    }
+    recall();
+  }
+
+  double cost() { return costOf(field_, effort(), length(), tally_.covered(), goal_); }
+
+  /// The plan as it is, where it is the best one so far of which every way is known.
+  void remember() {
+    if (!best_.empty() && cost() >= best_cost_) return;
+    best_cost_ = cost();
+    best_ = plan_.steps;
+  }
+
+  /// A change may turn out worse than what it was made of, once its ways are known.
+  void recall() {
+    if (best_.empty() || cost() <= best_cost_) return;
+    for (const Step& step : plan_.steps) tally_.remove(wayOf(step));
+    plan_.steps = best_;
+    count();
   }
 
   bool isBorderLap(const Step& step) const {
@@ -174,8 +207,7 @@ class Planner {
         const Curve way = wayOf(step);
         const double saved = effortOf(step) + links_.detour(at(i - 1), step, step, at(i + 1));
         const double shorter = way.length() + links_.longer(at(i - 1), step, at(i + 1));
-        const bool is_wished =
-            fillers_.count(step.work) > 0 || (isBorderLap(step) && field_.params().headland_laps > 0);
+        const bool is_wished = is_filled_ || (isBorderLap(step) && field_.params().headland_laps > 0);
         if ((is_wished && saved < Links::kNoWay / 2.0) || !pays(-saved, -shorter, -tally_.only(way))) continue;
         tally_.remove(way);
         plan_.steps.erase(plan_.steps.begin() + i--);
@@ -233,8 +265,7 @@ class Planner {
     const auto headings = rankHeadings(field_, prices, grid, swathHeadings(field_));
     for (const Work& work : planSwaths(field_, prices, headings, &grid)) {
       plan_.works.push_back(work);
-      const std::size_t index = plan_.works.size() - 1;
-      const Insertion insertion = cheapestInsertion(&links_, plan_.works, index, plan_.steps);
+      const Insertion insertion = cheapestInsertion(&links_, plan_.works, plan_.works.size() - 1, plan_.steps);
       const auto place = static_cast<long>(insertion.place);
       links_.settle(at(place - 1), &insertion.step);
       links_.settle(&insertion.step, at(place));
@@ -244,7 +275,6 @@ class Planner {
       *more -= longer;
       tally_.add(way);
       insert(insertion);
-      fillers_.insert(index);
     }
   }
 
@@ -252,9 +282,11 @@ class Planner {
   Plan plan_;
   Links links_;
   Tally tally_;
-  double goal_;                    ///< [m^2]
-  std::set<std::size_t> fillers_;  ///< works that fill gaps
-  bool is_settled_ = false;        ///< whether the lengths of the ways between are known
+  double goal_;             ///< [m^2]
+  bool is_filled_ = false;  ///< what sweeps a gap stays, and no gap is made
+  std::vector<Step> best_;  ///< as remember()
+  double best_cost_ = 0.0;
+  bool is_settled_ = false;  ///< whether the lengths of the ways between are known
 };
 
 }  // namespace
