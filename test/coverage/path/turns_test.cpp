@@ -77,13 +77,13 @@ TEST(ShortTurn, IsNoneBeforeAWall) {
 TEST(ShiftedTurn, IsHardlyDearerThanTheCheapestOfAllShifts) {
   const Yard open, walled({box(33.0, 11.0, 40.0, 11.4)});
   const auto expectCheap = [](const Yard& yard, double offset) {
-    const Pose2d from = yard.pose(37.5, 8.0, 0.0), to = yard.pose(36.9, 8.0 + offset, M_PI);
+    const Pose2d from = yard.pose(37.4, 8.0, 0.0), to = yard.pose(36.1, 8.0 + offset, M_PI);
     const auto turn = shiftedTurn(yard.field(), from, to);
     ASSERT_TRUE(turn) << offset;
     expectLeads(yard.field(), *turn, from, to);
     EXPECT_LE(costOf(yard.field(), *turn), 1.02 * leastCostByTrying(yard.field(), from, to)) << offset;
   };
-  for (const double offset : {1.6, 3.2, 5.0}) expectCheap(open, offset);
+  for (const double offset : {1.6, 2.4, 3.2, 4.0, 5.0}) expectCheap(open, offset);
   expectCheap(walled, 1.6);
 }
 
