@@ -63,4 +63,13 @@ double Tally::gain(const Curve& way) { return areaWith(way, 0); }
 
 double Tally::only(const Curve& way) { return areaWith(way, 1); }
 
+UnsweptPart Tally::cellsOnly(const Curve& way) {
+  UnsweptPart part;
+  const auto columns = static_cast<std::size_t>(grid_.columns());
+  visit(way, [&](std::size_t cell) {
+    if (counts_[cell] == 1) part.emplace_back(static_cast<int>(cell % columns), static_cast<int>(cell / columns));
+  });
+  return part;
+}
+
 }  // namespace external_command

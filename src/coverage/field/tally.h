@@ -6,6 +6,7 @@
 
 #include "coverage/path/curve.h"
 #include "grid.h"
+#include "uncovered.h"
 
 namespace external_command {
 
@@ -19,8 +20,9 @@ class Tally {
   void add(const Curve& way);
   void remove(const Curve& way);
 
-  double gain(const Curve& way);  ///< area of the goal that only `way`, not added yet, would sweep [m^2]
-  double only(const Curve& way);  ///< that only `way`, already added, sweeps [m^2]
+  double gain(const Curve& way);            ///< area of the goal that only `way`, not added yet, would sweep [m^2]
+  double only(const Curve& way);            ///< that only `way`, already added, sweeps [m^2]
+  UnsweptPart cellsOnly(const Curve& way);  ///< the cells of that
   double covered() const { return static_cast<double>(covered_) * grid_.cellArea(); }  ///< of the goal [m^2]
 
   /// The grid with what is swept.

@@ -12,41 +12,60 @@ bool isOpen(const CoverageGrid& grid, int column, int row) {
   return (cell & kGoal) != 0 && (cell & kSwept) == 0;
 }
 
-/// The cells connected to (column, row).
-UnsweptPart floodFrom(const CoverageGrid& grid, int column, int row, std::vector<bool>* seen) {
-  const auto index = [&](int c, int r) {
-    return static_cast<std::size_t>(r) * static_cast<std::size_t>(grid.columns()) + static_cast<std::size_t>(c);
-  };
-  UnsweptPart part = {{column, row}};
-  (*seen)[index(column, row)] = true;
-  for (std::size_t i = 0; i < part.size(); ++i) {
-    const auto [c, r] = part[i];
-    for (const auto& [dc, dr] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)}) {
-      const int nc = c + dc, nr = r + dr;
-      if (nc < 0 || nr < 0 || nc >= grid.columns() || nr >= grid.rows()) continue;
-      if ((*seen)[index(nc, nr)] || !isOpen(grid, nc, nr)) continue;
-      (*seen)[index(nc, nr)] = true;
-      part.emplace_back(nc, nr);
+/// Finds parts, each once.
+class Flood {
+ public:
+  Flood(const CoverageGrid& grid, double least)
+      : grid_(grid),
+        least_(least),
+        seen_(static_cast<std::size_t>(grid.columns()) * static_cast<std::size_t>(grid.rows()), false) {}
+
+  void from(int column, int row) {
+    if (!isNew(column, row)) return;
+    UnsweptPart part = {{column, row}};
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const auto [c, r] = part[i];
+      for (const auto& [nc, nr] :
+           {std::pair(c + 1, r), std::pair(c - 1, r), std::pair(c, r + 1), std::pair(c, r - 1)}) {
+        if (nc < 0 || nr < 0 || nc >= grid_.columns() || nr >= grid_.rows() || !isNew(nc, nr)) continue;
+        part.emplace_back(nc, nr);
+      }
     }
+    if (static_cast<double>(part.size()) * grid_.cellArea() >= least_) parts_.push_back(std::move(part));
   }
-  return part;
-}
+
+  std::vector<UnsweptPart> parts() { return std::move(parts_); }
+
+ private:
+  /// Whether the cell is unswept and not seen before; it is seen then.
+  bool isNew(int column, int row) {
+    const std::size_t index =
+        static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.columns()) + static_cast<std::size_t>(column);
+    if (seen_[index] || !isOpen(grid_, column, row)) return false;
+    seen_[index] = true;
+    return true;
+  }
+
+  const CoverageGrid& grid_;
+  double least_;
+  std::vector<bool> seen_;
+  std::vector<UnsweptPart> parts_;
+};
 
 }  // namespace
 
 std::vector<UnsweptPart> unsweptParts(const CoverageGrid& grid, double least) {
-  std::vector<UnsweptPart> parts;
-  std::vector<bool> seen(static_cast<std::size_t>(grid.columns()) * static_cast<std::size_t>(grid.rows()), false);
+  Flood flood(grid, least);
   for (int row = 0; row < grid.rows(); ++row) {
-    for (int column = 0; column < grid.columns(); ++column) {
-      const std::size_t index =
-          static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns()) + static_cast<std::size_t>(column);
-      if (seen[index] || !isOpen(grid, column, row)) continue;
-      UnsweptPart part = floodFrom(grid, column, row, &seen);
-      if (static_cast<double>(part.size()) * grid.cellArea() >= least) parts.push_back(std::move(part));
-    }
+    for (int column = 0; column < grid.columns(); ++column) flood.from(column, row);
   }
-  return parts;
+  return flood.parts();
+}
+
+std::vector<UnsweptPart> unsweptParts(const CoverageGrid& grid, double least, const UnsweptPart& cells) {
+  Flood flood(grid, least);
+  for (const auto& [column, row] : cells) flood.from(column, row);
+  return flood.parts();
 }
 
 std::vector<std::vector<Point2d>> uncoveredParts(const CoverageGrid& grid, const Point2d& origin) {

@@ -13,7 +13,7 @@ namespace external_command {
 
 namespace {
 
-constexpr double kTurn = 1.1;        ///< price of a turn, in half circles
+constexpr double kTurn = 1.3;        ///< price of a turn, in half circles: about what finished plans take
 constexpr double kFewerTurns = 5.0;  ///< how much dearer a turn is where few are wanted
 constexpr std::size_t kHeadingsKept = 4;
 constexpr double kCorridor = 10.0;  ///< swaths across an area that is so narrow in the mean that laps alone are tried

@@ -207,8 +207,10 @@ class Planner {
         const Curve way = wayOf(step);
         const double saved = effortOf(step) + links_.detour(at(i - 1), step, step, at(i + 1));
         const double shorter = way.length() + links_.longer(at(i - 1), step, at(i + 1));
-        const bool is_wished = is_filled_ || (isBorderLap(step) && field_.params().headland_laps > 0);
-        if ((is_wished && saved < Links::kNoWay / 2.0) || !pays(-saved, -shorter, -tally_.only(way))) continue;
+        if (!pays(-saved, -shorter, -tally_.only(way))) continue;
+        const bool is_wished =
+            (isBorderLap(step) && field_.params().headland_laps > 0) || (is_filled_ && opensGap(way));
+        if (is_wished && saved < Links::kNoWay / 2.0) continue;
         tally_.remove(way);
         plan_.steps.erase(plan_.steps.begin() + i--);
         changed = true;
@@ -239,11 +241,23 @@ class Planner {
     }
   }
 
+  /// From how large a piece on nothing is left unswept [m^2]; 0: any may be.
+  double gap() const { return field_.params().max_gap * field_.width() * field_.width(); }
+
+  /// Whether such a piece would be left without `way`, which is in the plan.
+  bool opensGap(const Curve& way) {
+    if (gap() <= 0.0) return false;
+    const UnsweptPart cells = tally_.cellsOnly(way);
+    tally_.remove(way);
+    const bool opens = !unsweptParts(tally_.grid(), gap(), cells).empty();
+    tally_.add(way);
+    return opens;
+  }
+
   /// Sweeps the larger pieces that are left, whether that pays or not, largest first.
   void fillGaps() {
-    const double least = field_.params().max_gap * field_.width() * field_.width();
-    if (least <= 0.0) return;
-    std::vector<UnsweptPart> parts = unsweptParts(tally_.grid(), least);
+    if (gap() <= 0.0) return;
+    std::vector<UnsweptPart> parts = unsweptParts(tally_.grid(), gap());
     const auto larger = [](const UnsweptPart& a, const UnsweptPart& b) { return a.size() > b.size(); };
     std::stable_sort(parts.begin(), parts.end(), larger);
     double more = kMoreForGaps * length();
@@ -263,7 +277,10 @@ class Planner {
     }
     const SwathPrices prices{kDear / field_.width(), kGapTurn * field_.radius()};
     const auto headings = rankHeadings(field_, prices, grid, swathHeadings(field_));
-    for (const Work& work : planSwaths(field_, prices, headings, &grid)) {
+    std::vector<Work> works = planSwaths(field_, prices, headings, &grid);
+    std::stable_sort(works.begin(), works.end(), [](const Work& a, const Work& b) { return a.length() > b.length(); });
+    for (const Work& work : works) {
+      if (unsweptParts(tally_.grid(), gap(), part).empty()) break;
       plan_.works.push_back(work);
       const Insertion insertion = cheapestInsertion(&links_, plan_.works, plan_.works.size() - 1, plan_.steps);
       const auto place = static_cast<long>(insertion.place);
@@ -283,7 +300,7 @@ class Planner {
   Links links_;
   Tally tally_;
   double goal_;             ///< [m^2]
-  bool is_filled_ = false;  ///< what sweeps a gap stays, and no gap is made
+  bool is_filled_ = false;  ///< gaps are filled, and none is opened
   std::vector<Step> best_;  ///< as remember()
   double best_cost_ = 0.0;
   bool is_settled_ = false;  ///< whether the lengths of the ways between are known
