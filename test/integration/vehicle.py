@@ -45,7 +45,12 @@ class Vehicle:
 
     def place(self, x, y, heading=0.0):
         """Puts it there, and waits until the component knows. One that stands there already is told nothing: nobody could
-        see when it has heard it, and while it drives that would end its command."""
+        see when it has heard it, and while it drives that would end its command. One that rolled on a little after it was
+        last seen there is put back."""
+        support.wait_until(lambda: self._put(x, y, heading), "the component knows where the vehicle is")
+
+    def _put(self, x, y, heading):
+        """Whether the component sees it there, if that is where it is."""
         if not self.is_at(x, y, heading):
             message = PoseWithCovarianceStamped()
             message.pose.pose.position.x, message.pose.pose.position.y = x, y
@@ -54,7 +59,7 @@ class Vehicle:
             support.wait_until(lambda: self._initial_pose.get_num_connections() > 0, "the vehicle takes poses")
             self._initial_pose.publish(message)
             support.wait_until(lambda: self.is_at(x, y, heading), "the vehicle is there")
-        support.wait_until(lambda: self._component_sees_it_at(x, y), "the component knows where the vehicle is")
+        return self._component_sees_it_at(x, y)
 
     def is_at(self, x, y, heading):
         turned = math.remainder(self.pose[2] - heading, 2.0 * math.pi)
