@@ -31,7 +31,7 @@ std::pair<int, int> cellAt(double x, double y) { return {square().columnOf(x), s
 /// From edge to edge along y.
 Curve swathAt(double y) { return {Pose2d{0.0, y, 0.0}, {{kSide, 0.0}}}; }
 
-/// The middle is swept, so that two strips are left: 5 m and 13 m wide.
+/// One swath is swept, so that two strips are left: 5 m and 13 m wide.
 CoverageGrid squareInTwo() {
   CoverageGrid grid = square();
   grid.sweep(swathAt(6.0), kWidth);
