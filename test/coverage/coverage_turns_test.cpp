@@ -141,5 +141,22 @@ TEST(CoveragePlanner, SweepsLargerGapsForAFewMetresMore) {
   EXPECT_TRUE(isDrivable(none.path, area));
 }
 
+/// What sweeps a gap does not pay, and stays in the plan all the same when that is improved once more.
+TEST(CoveragePlanner, KeepsGapsSweptThatDoNotPay) {
+  const CoverageArea yard{box(0, 0, 50, 50), {box(20, 20, 30, 30), box(35, 10, 41, 17)}};
+  const CoverageArea lawn{circle(25.0), {box(-6, -4, 5, 8)}};
+  for (const auto& [area, start] : {std::pair(yard, Pose2d{4.0, 4.0, 0.0}), std::pair(lawn, Pose2d{4.0, -20.0, 0.0})}) {
+    CoverageParams lavish = params(), careful = params();
+    lavish.target_coverage = careful.target_coverage = 0.9;
+    lavish.max_gap = 0.0;
+    careful.max_gap = 0.5;
+    const CoverageResult gaps = CoveragePlanner(sweeper(), lavish).plan(area, start, {}, {});
+    const CoverageResult none = CoveragePlanner(sweeper(), careful).plan(area, start, {}, {});
+    EXPECT_GT(none.coverage_ratio, gaps.coverage_ratio + 0.002);
+    EXPECT_LT(none.length, 1.03 * gaps.length);
+    EXPECT_TRUE(isDrivable(none.path, area));
+  }
+}
+
 }  // namespace
 }  // namespace external_command
