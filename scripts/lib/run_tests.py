@@ -190,7 +190,7 @@ def main():
     parser.add_argument("build_dir", type=os.path.abspath)
     parser.add_argument("names", nargs="*", help="only programs whose kind and name contain one of these words")
     parser.add_argument("--list", action="store_true", help="print the programs and stop")
-    parser.add_argument("--jobs", type=int, default=(os.cpu_count() or 1) + 1,
+    parser.add_argument("--jobs", type=int, default=(os.cpu_count() or 1) + 2,
                         help="programs that run side by side; half of their time they wait for vehicles that drive")
     args = parser.parse_args()
     programs = select(list_programs(args.build_dir), args.names)
