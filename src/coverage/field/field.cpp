@@ -180,9 +180,11 @@ bool Field::isBarelyFree(const Curve& curve) const {
 Curve Field::freePart(const Curve& curve, double step) const {
   const double length = curve.length();
   const int n = std::max(1, static_cast<int>(std::ceil(length / step)));
+  const std::vector<Pose2d> poses = evenPoses(curve, n);
   int begin = -1, longest = 0, longest_begin = 0;
   for (int i = 0; i <= n + 1; ++i) {
-    const bool free = i <= n && isFree(poseAt(curve, length * i / n));
+    poll();
+    const bool free = i <= n && isFree(poses[static_cast<std::size_t>(i)]);
     if (free && begin < 0) begin = i;
     if (free || begin < 0) continue;
     if (i - 1 - begin > longest) longest = i - 1 - begin, longest_begin = begin;

@@ -23,19 +23,42 @@ namespace {
 constexpr int kPointsPerCircle = 72;
 constexpr double kSpeck = 1e-3;  // [m^2] smaller pieces are rounding
 constexpr int kAttempts = 4;
+constexpr std::size_t kMostAtOnce = 1000;  ///< corners of a border that is moved in one piece
+constexpr std::size_t kPiece = 50;         ///< sides of the pieces otherwise
 
-/// nullopt where the library finds that it has gone wrong, as with outlines whose walls are thin.
-std::optional<Shapes> buffered(const Shape& from, double distance) {
+/// What lies within `distance` of `from`; without a rim as wide where that is negative.
+template <class Geometry>
+Shapes roundBuffer(const Geometry& from, double distance) {
   namespace strategy = bg::strategy::buffer;
   Shapes result;
+  bg::buffer(from, result, strategy::distance_symmetric<double>(distance), strategy::side_straight(),
+             strategy::join_round(kPointsPerCircle), strategy::end_round(kPointsPerCircle),
+             strategy::point_circle(kPointsPerCircle));
+  return result;
+}
+
+/// What lies within `distance` of a border of many corners: piece by piece, since all at once may take seconds in which
+/// nobody is asked whether to go on.
+Shapes bandAlong(const Ring& ring, double distance, const Checkpoint& checkpoint) {
+  std::vector<Shapes> pieces;
+  for (std::size_t first = 0; first + 1 < ring.size(); first += kPiece) {
+    checkpoint();
+    const auto last = static_cast<long>(std::min(first + kPiece + 1, ring.size()));
+    const bg::model::linestring<Point2d> piece(ring.begin() + static_cast<long>(first), ring.begin() + last);
+    pieces.push_back(roundBuffer(piece, distance));
+  }
+  return unionOf(std::move(pieces), checkpoint);
+}
+
+/// nullopt where the library finds that it has gone wrong, as with outlines whose walls are thin.
+std::optional<Shapes> buffered(const Shape& from, double distance, const Checkpoint& checkpoint) {
   try {
-    bg::buffer(from, result, strategy::distance_symmetric<double>(distance), strategy::side_straight(),
-               strategy::join_round(kPointsPerCircle), strategy::end_round(kPointsPerCircle),
-               strategy::point_circle(kPointsPerCircle));
+    if (from.outer().size() <= kMostAtOnce) return roundBuffer(from, distance);
+    const Shapes band = bandAlong(from.outer(), std::abs(distance), checkpoint);
+    return distance < 0.0 ? difference(only(from), band) : unionOf({only(from), band}, checkpoint);
   } catch (const InternalError&) {
     return std::nullopt;
   }
-  return result;
 }
 
 void dropSpecks(Shapes* of) {
@@ -67,14 +90,15 @@ bool isPlausible(const Shape& before, const Shapes& after, double distance) {
 
 /// What lies within a ring, grown or shrunk. Checked by area and distance, since some releases of the library lose a
 /// part now and then: tried again with a slightly different distance.
-Shapes grownRing(Ring ring, double distance) {
+Shapes grownRing(Ring ring, double distance, const Checkpoint& checkpoint) {
   Shape shape;
   shape.outer() = std::move(ring);
   if (distance == 0.0) return only(shape);
   std::optional<Shapes> last;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const double factor = 1.0 + 1e-3 * attempt * (attempt % 2 == 0 ? 1 : -1);
-    std::optional<Shapes> result = buffered(shape, distance * factor);
+    checkpoint();
+    std::optional<Shapes> result = buffered(shape, distance * factor, checkpoint);
     if (!result) continue;
     dropSpecks(&*result);
     last = std::move(result);
@@ -90,9 +114,9 @@ Shapes withRingsMoved(const Shape& shape, double border_outwards, double holes_o
   std::vector<Shapes> holes;
   for (const auto& hole : shape.inners()) {
     checkpoint();
-    holes.push_back(grownRing(Ring(hole.rbegin(), hole.rend()), holes_outwards));
+    holes.push_back(grownRing(Ring(hole.rbegin(), hole.rend()), holes_outwards, checkpoint));
   }
-  const Shapes whole = grownRing(Ring(shape.outer().begin(), shape.outer().end()), border_outwards);
+  const Shapes whole = grownRing(Ring(shape.outer().begin(), shape.outer().end()), border_outwards, checkpoint);
   return holes.empty() ? whole : difference(whole, unionOf(std::move(holes), checkpoint));
 }
 

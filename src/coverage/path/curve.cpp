@@ -137,6 +137,23 @@ Pose2d poseAt(const Curve& curve, double driven) {
   return pose;
 }
 
+std::vector<Pose2d> evenPoses(const Curve& curve, int n) {
+  const double step = curve.length() / n;
+  std::vector<Pose2d> poses;
+  Pose2d begin = curve.start;
+  double passed = 0.0;  // before `begin`
+  for (const ArcSegment& arc : curve.arcs) {
+    const double length = std::abs(arc.length);
+    while (static_cast<int>(poses.size()) < n && static_cast<double>(poses.size()) * step <= passed + length) {
+      poses.push_back(advance(begin, arc, static_cast<double>(poses.size()) * step - passed));
+    }
+    passed += length;
+    begin = advance(begin, arc);
+  }
+  poses.resize(static_cast<std::size_t>(n) + 1, begin);
+  return poses;
+}
+
 std::vector<Pose2d> posesAlong(const Curve& curve, double reach, double step) {
   std::vector<Pose2d> poses{curve.start};
   Pose2d begin = curve.start;

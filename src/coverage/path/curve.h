@@ -39,6 +39,9 @@ Curve partOf(const Curve& curve, double from, double to);
 /// The pose after `driven` [m] of the curve, clamped to its ends.
 Pose2d poseAt(const Curve& curve, double driven);
 
+/// `n` + 1 poses at equal distances along the curve, from its start to its end.
+std::vector<Pose2d> evenPoses(const Curve& curve, int n);
+
 inline Pose2d aboutFace(const Pose2d& pose) { return {pose.x, pose.y, normalizeAngle(pose.heading + M_PI)}; }
 
 /// Poses along the curve, its start and end among them, close enough that no corner of a vehicle that reaches `reach`

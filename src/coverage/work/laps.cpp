@@ -126,9 +126,11 @@ class LapBuilder {
   void addSides(const Curve& whole) {
     const double length = whole.length();
     const int n = std::max(1, static_cast<int>(std::ceil(length / kPoseStep)));
+    const std::vector<Pose2d> poses = evenPoses(whole, n);
     int begin = -1;
     for (int i = 0; i <= n + 1; ++i) {
-      const bool free = i <= n && field_.isFree(poseAt(whole, length * i / n));
+      field_.poll();
+      const bool free = i <= n && field_.isFree(poses[static_cast<std::size_t>(i)]);
       if (free && begin < 0) begin = i;
       if (free || begin < 0) continue;
       const double from = length * begin / n, to = length * (i - 1) / n;
