@@ -5,11 +5,18 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <unordered_map>
 
 namespace external_command {
 
-Remains::Remains(const CoverageGrid& grid, double block) {
+namespace {
+
+bool contains(const Part& part, const Point2d& point) {
+  return std::all_of(part.begin(), part.end(), [&](const HalfPlane& side) { return side.contains(point); });
+}
+
+}  // namespace
+
+Remains::Remains(const CoverageGrid& grid, double block, const Part& part) {
   const int side = std::max(1, static_cast<int>(block / grid.cell() + 1e-6));
   std::vector<int> counts(static_cast<std::size_t>(grid.columns() / side + 1));
   for (int first = 0; first < grid.rows(); first += side) {
@@ -24,19 +31,31 @@ Remains::Remains(const CoverageGrid& grid, double block) {
     for (std::size_t i = 0; i < counts.size(); ++i) {
       if (counts[i] == 0) continue;
       const Point2d half = 0.5 * (side - 1) * Point2d(grid.cell(), grid.cell());
-      spots.push_back({grid.centre(static_cast<int>(i) * side, first) + half, counts[i] * grid.cellArea()});
-      area += spots.back().area;
+      const Spot spot{grid.centre(static_cast<int>(i) * side, first) + half, counts[i] * grid.cellArea()};
+      if (!contains(part, spot.at)) continue;
+      spots.push_back(spot);
+      area += spot.area;
     }
   }
 }
 
+/// Of the coarse squares, those of one row are open at a time.
 Remains::Remains(const Remains& fine, double block) : area(fine.area) {
-  std::unordered_map<long, std::size_t> seen;
+  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  long low = std::numeric_limits<long>::max(), high = std::numeric_limits<long>::lowest(), row = high;
+  const auto columnOf = [&](const Spot& spot) { return std::lround(spot.at.x() / block); };
+  for (const Spot& spot : fine.spots) low = std::min(low, columnOf(spot)), high = std::max(high, columnOf(spot));
+  std::vector<std::size_t> seen;
   for (const Spot& spot : fine.spots) {
-    const long column = std::lround(spot.at.x() / block), row = std::lround(spot.at.y() / block);
-    const auto [entry, is_new] = seen.try_emplace(row * 1000003L + column, spots.size());
-    if (is_new) spots.push_back({Point2d(0.0, 0.0), 0.0});
-    Spot& sum = spots[entry->second];
+    const long at = std::lround(spot.at.y() / block);
+    if (at != row) seen.assign(static_cast<std::size_t>(high - low + 1), kNone);
+    row = at;
+    std::size_t& place = seen[static_cast<std::size_t>(columnOf(spot) - low)];
+    if (place == kNone) {
+      place = spots.size();
+      spots.push_back({Point2d(0.0, 0.0), 0.0});
+    }
+    Spot& sum = spots[place];
     sum.at += spot.area * spot.at;
     sum.area += spot.area;
   }
@@ -44,11 +63,9 @@ Remains::Remains(const Remains& fine, double block) : area(fine.area) {
 }
 
 Remains Remains::within(const Part& part) const {
-  if (part.empty()) return *this;
   Remains result;
   for (const Spot& spot : spots) {
-    const auto contains = [&](const HalfPlane& side) { return side.contains(spot.at); };
-    if (!std::all_of(part.begin(), part.end(), contains)) continue;
+    if (!contains(part, spot.at)) continue;
     result.spots.push_back(spot);
     result.area += spot.area;
   }

@@ -22,9 +22,9 @@ using Part = std::vector<HalfPlane>;
 /// What is left to sweep, as points that stand for an area each.
 struct Remains {
   /// @param block  side of the squares that are taken together [m].
-  Remains(const CoverageGrid& grid, double block);
+  Remains(const CoverageGrid& grid, double block, const Part& part = {});
 
-  /// The same, coarser.
+  /// The same, coarser. @param fine  of a grid, so row by row.
   Remains(const Remains& fine, double block);
 
   Remains within(const Part& part) const;

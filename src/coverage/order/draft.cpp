@@ -18,7 +18,7 @@ constexpr double kFewerTurns = 5.0;  ///< how much dearer a turn is where few ar
 constexpr std::size_t kHeadingsKept = 4;
 constexpr double kCorridor = 10.0;  ///< swaths across an area that is so narrow in the mean that laps alone are tried
 constexpr int kMostLaps = 50;       ///< of these
-constexpr double kTimeForLaps = 0.15;  ///< share of the budget after which no more laps than the nose needs are tried
+constexpr double kTimeForLaps = 0.15;  ///< share of the budget after which no more laps are tried
 constexpr double kLapsInAll = 4e4;     ///< how many laps are tried: fewer on large fields, where each takes longer
 
 /// Of a turn on a headland of so many laps: it takes changes of gear where there is no room for half a circle.
@@ -64,7 +64,7 @@ std::vector<Draft> draftsFor(const Field& field, const CoverageGrid& empty, doub
         if (headings.size() < kHeadingsKept) headings.push_back(ranked.heading);
       }
     }
-    if (draft.laps == most || (draft.laps > nose && field.timeUsed() > kTimeForLaps)) break;
+    if (draft.laps == most || (!drafts.empty() && field.timeUsed() > kTimeForLaps)) break;
     const std::vector<Work> laps = planLap(field, draft.laps, {wanted >= 0 ? wanted : nose, swing}, price, &draft.grid);
     if (laps.empty()) break;
     for (const Work& lap : laps) {

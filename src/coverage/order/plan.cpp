@@ -15,8 +15,9 @@ namespace {
 
 constexpr double kDear = 12.0;  ///< price of a square metre, times the width, for which the last swaths are looked for
 constexpr int kMostDead = 10;   ///< rounds of leaving out what no way leads to
-constexpr double kTimeForChanges = 0.65;  ///< share of the budget after which a plan is settled as it is
-constexpr double kTimeForGaps = 0.72;     ///< the same for the gaps
+constexpr double kTimeForOrder = 0.45;    ///< share of the budget after which an order not settled is improved no more
+constexpr double kTimeForChanges = 0.65;  ///< the same after which a plan is settled as it is
+constexpr double kTimeForGaps = 0.68;     ///< the same for the gaps
 constexpr double kMoreForGaps = 0.02;     ///< of length, as share
 constexpr int kRoundsForGaps = 3;         ///< of refining once the gaps are filled
 constexpr int kRounds = 4;                ///< of swaths for what is left
@@ -36,7 +37,7 @@ class Planner {
     order();
     count();
     leaveOut();
-    putIn();
+    putIn(kTimeForOrder);
     chooseWays();
     return finish();
   }
@@ -46,7 +47,7 @@ class Planner {
     count();
     refine(rounds);
     if (rounds > 1 && field_.timeUsed() < kTimeForChanges) {
-      putIn();
+      putIn(kTimeForChanges);
       refine(rounds);
     }
     fillGaps();
@@ -123,7 +124,7 @@ class Planner {
     while (first != plan_.steps.begin() && !isBorderLap(*(first - 1))) --first;
     Tour tour(&links_, plan_.works, first == plan_.steps.begin() ? std::nullopt : std::optional<Step>(*(first - 1)));
     tour.take({first, plan_.steps.end()});
-    tour.improve();
+    tour.improve(kTimeForChanges);
     for (auto step = first; step != plan_.steps.end(); ++step) tally_.remove(wayOf(*step));
     std::copy(tour.steps().begin(), tour.steps().end(), first);
     for (auto step = first; step != plan_.steps.end(); ++step) tally_.add(wayOf(*step));
@@ -163,7 +164,7 @@ class Planner {
     for (const auto& part : {laps, swaths}) {
       Tour tour(&links_, plan_.works, plan_.steps.empty() ? std::nullopt : std::optional<Step>(plan_.steps.back()));
       tour.build(part);
-      tour.improve();
+      tour.improve(kTimeForOrder);
       plan_.steps.insert(plan_.steps.end(), tour.steps().begin(), tour.steps().end());
     }
     for (const std::size_t ring : rings) insert(cheapestInsertion(&links_, plan_.works, ring, plan_.steps));
@@ -218,16 +219,18 @@ class Planner {
     }
   }
 
-  void putIn() {
+  /// @param until  share of the budget after which nothing more is put in.
+  void putIn(double until) {
     const SwathPrices prices{is_settled_ ? std::max(plan_.price, kDear / field_.width()) : plan_.price,
                              kCheapTurn * field_.radius()};
     bool changed = true;
-    for (int round = 0; round < kRounds && changed; ++round) {
+    for (int round = 0; round < kRounds && changed && field_.timeUsed() < until; ++round) {
       field_.poll();
       changed = false;
       CoverageGrid grid = tally_.grid();
       const auto headings = rankHeadings(field_, prices, grid, swathHeadings(field_));
       for (const Work& work : planSwaths(field_, prices, headings, &grid)) {
+        if (field_.timeUsed() > until) break;
         plan_.works.push_back(work);
         const Insertion insertion = cheapestInsertion(&links_, plan_.works, plan_.works.size() - 1, plan_.steps);
         const Curve way = work.curveOf(insertion.step.way);

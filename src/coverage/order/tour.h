@@ -22,21 +22,27 @@ class Tour {
   /// Begins with an order found before.
   void take(std::vector<Step> steps) { steps_ = std::move(steps); }
 
-  void improve();
+  /// @param until  share of the budget after which nothing more is tried.
+  void improve(double until);
 
   const std::vector<Step>& steps() const { return steps_; }
 
  private:
   const Step* at(long i) const { return i < 0 && before_ ? &*before_ : stepAt(steps_, i); }
+  Step nearest(const std::vector<std::size_t>& todo);
   bool canTurn(const Step& step) const { return works_[step.work].isReversible(); }
-  bool turnParts();
-  bool moveParts();
+  bool turnParts(double until);
+  bool moveParts(double until);
+  void measure(long first, long last);  ///< the gaps before steps `first` ... `last`
+  double gap(long i) const { return gaps_[static_cast<std::size_t>(i)]; }
+  bool isLate(double until) const { return links_.field().timeUsed() > until; }
   bool movePart(long begin, long count);
 
   Links& links_;
   const std::vector<Work>& works_;
   std::optional<Step> before_;
   std::vector<Step> steps_;
+  std::vector<double> gaps_;  ///< in improve(): the price of the way to each step, and behind the last one [m]
 };
 
 /// Where a piece of work fits into a tour best.

@@ -18,26 +18,27 @@ namespace external_command {
 /// Looks for the stretches that are worth a swath on parallel lines, a swath's pitch apart.
 class LineSearch {
  public:
-  /// @param grid  tells where the vehicle can be; kept by reference.
-  LineSearch(const Field& field, const SwathPrices& prices, const CoverageGrid& grid)
-      : field_(field), prices_(prices), bypasses_(field, grid) {}
+  /// @param grid    tells where the vehicle can be; kept by reference.
+  /// @param swaths  that a line stands for; more than one for a coarse look.
+  LineSearch(const Field& field, const SwathPrices& prices, const CoverageGrid& grid, double swaths = 1.0)
+      : field_(field), turn_(swaths * prices.turn), unswept_(prices.unswept), swaths_(swaths), bypasses_(field, grid) {}
 
   /// Searches each line, and hands it over with its distance across.
-  /// @param bins    of the profile across a swath.
+  /// @param bins    of the profile across a line.
   /// @param offset  of the first line from the first possible one [bins].
   template <class Visit>
   void visitLines(const Profile& profile, int bins, int offset, const Visit& visit) const {
-    StretchSearch search(prices_.turn, profile.bin());
-    const double pitch = (field_.width() - field_.params().overlap) / profile.bin();
+    StretchSearch search(turn_, swaths_ * profile.bin());
+    const double pitch = swaths_ * (field_.width() - field_.params().overlap) / profile.bin();
     for (double first = -offset; first < profile.rows(); first += pitch) {
       field_.poll();
       const int row = static_cast<int>(std::lround(first));
-      const double across = first * profile.bin() + field_.width() / 2.0;
-      if (prices_.unswept * profile.areaOf(row, row + bins) <= prices_.turn) continue;
+      const double across = first * profile.bin() + swaths_ * field_.width() / 2.0;
+      if (unswept_ * profile.areaOf(row, row + bins) <= turn_) continue;
       const float *low = profile.below(row), *high = profile.below(row + bins);
       int passed = 0;
       const double worth = search.best(
-          profile.columns(), [&](int i) { return prices_.unswept * static_cast<double>(high[i] - low[i]); },
+          profile.columns(), [&](int i) { return unswept_ * static_cast<double>(high[i] - low[i]); },
           [&](int i, bool begins) { return toll(profile, across, i, begins, &passed); });
       visit(across, worth, search);
     }
@@ -64,11 +65,13 @@ class LineSearch {
     *passed = bypass->end;
     const double beyond_blocked = field_.vehicle().length() - field_.vehicle().width;
     const double more_left = bypass->left - beyond_blocked * field_.width();
-    return std::max(0.0, bypass->more + prices_.unswept * std::max(0.0, more_left) - 2.0 * field_.gearPrice());
+    return swaths_ * std::max(0.0, bypass->more + unswept_ * std::max(0.0, more_left) - 2.0 * field_.gearPrice());
   }
 
   const Field& field_;
-  SwathPrices prices_;
+  double turn_;     ///< price [m]
+  double unswept_;  ///< price [m/m^2]
+  double swaths_;
   BypassSearch bypasses_;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "access.h"
 #include "bypass.h"
@@ -14,32 +15,40 @@ namespace external_command {
 
 namespace {
 
-constexpr int kBins = 6;        ///< across a swath
-constexpr int kCoarseBins = 2;  ///< the same, in the search for a heading
-constexpr double kCoarseSpots = 20e3;
+constexpr int kBins = 6;               ///< across a swath, unless the cells of the grid are larger
+constexpr int kCoarseBins = 2;         ///< across a line, in the search for a heading
+constexpr double kCoarseSpots = 20e3;  ///< in that search, about; on large fields a line stands for several swaths
 constexpr int kHeadings = 24;          ///< tried, besides those of the border's edges
 constexpr std::size_t kPromising = 8;  ///< headings that are looked at again, with lines in between
 constexpr double kDistinct = 0.01;     ///< headings closer than this are one [rad]
 constexpr std::size_t kFinalists = 2;  ///< headings looked at closely
+
+int binsFor(const Field& field, const CoverageGrid& grid) {
+  return std::clamp(static_cast<int>(field.width() / grid.cell() + 1e-6), kCoarseBins, kBins);
+}
 
 class SwathSearch {
  public:
   SwathSearch(const Field& field, const SwathPrices& prices, const CoverageGrid& grid, const Part& part)
       : field_(field),
         bypasses_(field, grid),
-        search_(field, prices, grid),
-        remains_(Remains(grid, field.width() / kBins).within(part)) {}
+        grid_(grid),
+        prices_(prices),
+        bins_(binsFor(field, grid)),
+        remains_(grid, field.width() / bins_, part) {}
 
   std::vector<SwathHeading> rank(const std::vector<double>& headings) const {
-    const double bin = field_.width() / kCoarseBins;
-    const Remains coarse(remains_, std::max(0.6 * bin, std::sqrt(remains_.area / kCoarseSpots)));
+    const double fine = field_.width() / kCoarseBins, block = std::sqrt(remains_.area / kCoarseSpots);
+    const double swaths = std::max(1.0, block / fine), bin = swaths * fine;
+    const Remains coarse(remains_, std::max(0.6 * fine, block));
+    const LineSearch search(field_, prices_, grid_, swaths);
     std::vector<SwathHeading> ranked;
     const auto rankBy = [&](int offsets) {
       for (SwathHeading& entry : ranked) {
         field_.poll();
         const Profile profile(coarse, entry.heading, bin);
         for (int offset = 0; offset < offsets; ++offset) {
-          entry.worth = std::max(entry.worth, search_.worthOf(profile, kCoarseBins, offset));
+          entry.worth = std::max(entry.worth, search.worthOf(profile, kCoarseBins, offset));
         }
       }
       const auto better = [](const SwathHeading& a, const SwathHeading& b) { return a.worth > b.worth; };
@@ -55,31 +64,29 @@ class SwathSearch {
   }
 
   std::vector<Work> plan(const std::vector<SwathHeading>& headings) const {
-    Layout best;
+    const LineSearch search(field_, prices_, grid_);
+    std::optional<Profile> best;
+    double most = 0.0;
+    int best_offset = 0;
     for (std::size_t i = 0; i < std::min(kFinalists, headings.size()); ++i) {
       field_.poll();
-      const Profile profile(remains_, headings[i].heading, field_.width() / kBins);
-      for (int offset = 0; offset < kBins; ++offset) {
-        const Layout layout{headings[i].heading, offset, search_.worthOf(profile, kBins, offset)};
-        if (layout.worth > best.worth) best = layout;
+      Profile profile(remains_, headings[i].heading, field_.width() / bins_);
+      const double before = most;
+      for (int offset = 0; offset < bins_; ++offset) {
+        const double worth = search.worthOf(profile, bins_, offset);
+        if (worth > most) most = worth, best_offset = offset;
       }
+      if (most > before) best = std::move(profile);
     }
-    if (best.worth <= 0.0) return {};
-    return lay(Profile(remains_, best.heading, field_.width() / kBins), best.offset);
+    return best ? lay(search, *best, best_offset) : std::vector<Work>();
   }
 
  private:
-  /// Parallel lines, `offset` bins off the first possible ones.
-  struct Layout {
-    double heading = 0.0;
-    int offset = 0;
-    double worth = 0.0;
-  };
-
-  std::vector<Work> lay(const Profile& profile, int offset) const {
+  /// Swaths on parallel lines, `offset` bins off the first possible ones.
+  std::vector<Work> lay(const LineSearch& search, const Profile& profile, int offset) const {
     std::vector<Work> works;
-    search_.visitLines(profile, kBins, offset, [&](double across, double, const StretchSearch& search) {
-      for (const Stretch& stretch : search.stretches()) addSwath(profile, across, stretch, &works);
+    search.visitLines(profile, bins_, offset, [&](double across, double, const StretchSearch& line) {
+      for (const Stretch& stretch : line.stretches()) addSwath(profile, across, stretch, &works);
     });
     return works;
   }
@@ -113,7 +120,9 @@ class SwathSearch {
 
   const Field& field_;
   BypassSearch bypasses_;
-  LineSearch search_;
+  const CoverageGrid& grid_;
+  SwathPrices prices_;
+  int bins_;
   Remains remains_;
 };
 
