@@ -28,6 +28,8 @@ constexpr std::pair<std::uint8_t, const char*> kActions[] = {
     {ActionCommand::EXIT_MISSION, "EXIT_MISSION"},
 };
 
+constexpr double kMovesOn = 2.0;  ///< a vehicle that moves so long after START was sent has taken it [s]
+
 bool isHold(std::uint8_t action) { return action == ActionCommand::STOP || action == ActionCommand::PULL_OVER; }
 
 /// Those of which the planner can follow one only.
@@ -151,7 +153,8 @@ PendingActions::Changes PendingActions::onChassis(const Chassis& chassis) {
   const bool moves = tells_speed && std::abs(chassis.speed_mps) > params_.moving_speed;
   is_standing_ = tells_speed && !moves;
   return endWhere(&pending_, [&](Pending& pending) -> std::optional<CommandStatus> {
-    if (pending.action == ActionCommand::START && moves && pending.was_standing) {
+    const bool moves_on = now_ >= pending.deadline - params_.timeout + kMovesOn;
+    if (pending.action == ActionCommand::START && moves && (pending.was_standing || moves_on)) {
       return finished(pending.command.id, text("the vehicle moves at ", chassis.speed_mps, " m/s"));
     }
     pending.was_standing = pending.was_standing || is_standing_;
@@ -167,6 +170,7 @@ void PendingActions::keepWhere(const std::function<bool(CommandSerial)>& is_runn
 }
 
 PendingActions::Changes PendingActions::onTime(double now) {
+  now_ = now;
   return endWhere(&pending_, [&](const Pending& pending) -> std::optional<CommandStatus> {
     if (now < pending.deadline) return std::nullopt;
     const bool is_hold = isHold(pending.action);

@@ -37,7 +37,8 @@ struct PendingActionParams {
 ///
 ///   FOLLOW, CHANGE_*, *_MISSION   a report of the planner, or a scenario that shows it
 ///   STOP, PULL_OVER               a scenario that shows it, and a report that it is finished
-///   START                         a vehicle that was seen standing, or not at all, and then moves
+///   START                         a vehicle that was seen standing, or not at all, and then moves; one that moved all
+///                                 the time, for it may have been braking: two seconds later
 ///   VIN_REQ                       a chassis that reports a vin
 ///
 /// A motion command that is sent after a STOP or PULL_OVER supersedes it.
@@ -88,6 +89,7 @@ class PendingActions {
   const PendingActionParams params_;
   std::vector<Pending> pending_;
   std::string scenario_;     ///< the planner's present one
+  double now_ = 0.0;         ///< when it was told last [s]
   bool is_standing_ = true;  ///< the vehicle, as reported last; taken for granted before the first report
 };
 

@@ -122,6 +122,15 @@ TEST_F(Actions, DoNotTakeAMovementThatBeganBeforeForThatOfAStart) {
   EXPECT_TRUE(ended(chassis(0.5), 1, CommandStatus::FINISHED));
 }
 
+TEST_F(Actions, EndAStartOfAVehicleThatStillMovesSomeSecondsLater) {
+  chassis(3.0);
+  pending_.add(command(1), ActionCommand::START, 10.0);
+  EXPECT_TRUE(pending_.onTime(11.0).empty());
+  EXPECT_TRUE(chassis(3.0).empty()) << "it may be braking for a stop";
+  EXPECT_TRUE(pending_.onTime(12.5).empty());
+  EXPECT_TRUE(ended(chassis(3.0), 1, CommandStatus::FINISHED));
+}
+
 TEST_F(Actions, DoNotTakeASpeedThatIsNoneForMovement) {
   chassis(0.0);
   pending_.add(command(1), ActionCommand::START, 0.0);
