@@ -60,7 +60,7 @@ CommandGate::Ticket CommandGate::begin(const AdmittedCommand& command, const Can
   if (newest_.serial != command.serial) planning_.cancel();  // it may begin once more
   planning_ = planning;
   newest_ = command;
-  newest_began_ = ros::Time::now();
+  newest_began_ = stamp();
   Ticket ticket;
   ticket.command_ = command;
   ticket.planning_ = planning;
@@ -95,7 +95,7 @@ void CommandGate::cancel(CommandSerial serial, const std::function<bool()>& end,
                          const std::function<void(const ros::Time& stamp)>& clear) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!end() || !motion_ || motion_->command.serial != serial) return;
-  const ros::Time now = ros::Time::now();  // simulated time may have been set back
+  const ros::Time now = stamp();  // simulated time may have been set back
   clear(newest_.serial == serial ? now : std::min(now, newest_began_));
   withdrawLocked();
   motion_.reset();

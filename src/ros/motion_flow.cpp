@@ -165,7 +165,7 @@ bool MotionFlow::fitToVehicle(const Pose2d& seen_at, MotionPlan* plan) const {
 void MotionFlow::complete(std::int64_t command_id, double target_speed, MotionPlan* plan) const {
   limitSpeeds(context_.params().vehicle, &plan->path);
   PlanningCommand& command = plan->command;
-  command.header.stamp = ros::Time::now();
+  command.header.stamp = context_.gate().stamp();
   command.header.frame_id = context_.params().map_frame;
   command.command_id = command_id;
   command.is_motion_command = true;

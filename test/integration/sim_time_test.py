@@ -13,8 +13,17 @@ from geometry_msgs.msg import Point
 from rosgraph_msgs.msg import Clock
 
 import support
-from external_command.msg import CommandStatus, LaneFollowCommand, PathFollowCommand, Pose, Readiness
-from external_command.srv import CancelCommand, LaneFollow
+from external_command.msg import (
+    ActionCommand,
+    CommandStatus,
+    LaneFollowCommand,
+    PathFollowCommand,
+    PlanningCommand,
+    PlanningPad,
+    Pose,
+    Readiness,
+)
+from external_command.srv import Action, CancelCommand, GetCommandStatus, LaneFollow, PathFollow
 from goals import BareClient
 from localization import Localization
 
@@ -80,6 +89,33 @@ class SimTimeTest(unittest.TestCase):
         assert_succeeds("while time stands still")
         simulated.passes = True
         client.close()
+
+    def test_stops_are_later_than_the_commands_before_them_though_time_stands_still(self):
+        simulated = self.time_from(5000.0)
+        commands = support.Collector("planning/command", PlanningCommand)
+        pads = support.Collector("planning/pad", PlanningPad)
+        follow = support.service("external_command/path_follow", PathFollow)
+        act = support.service("external_command/action", Action)
+        path = PathFollowCommand(way_point=[Point(0.0, 0.0, 0.0), Point(10.0, 0.0, 0.0)])
+        looked_up = support.service("external_command/command_status", GetCommandStatus)
+        support.wait_until(lambda: looked_up(1).status.header.stamp.to_sec() > 4000.0, "the gateway hears the time")
+        simulated.passes = False
+        try:
+            self.assertEqual(follow(path).status.status, CommandStatus.RUNNING)
+            act(ActionCommand(command=ActionCommand.STOP))
+            self.assertEqual(follow(path).status.status, CommandStatus.RUNNING)
+            act(ActionCommand(command=ActionCommand.CLEAR_PLANNING))
+
+            def motions():
+                return [command.header.stamp for command in commands.messages if command.is_motion_command]
+
+            support.wait_until(lambda: len(motions()) == 2 and len(pads.messages) == 2, "all is heard")
+            stamps = [motions()[0], pads.messages[0].header.stamp, motions()[1], pads.messages[1].header.stamp]
+            for earlier, later in zip(stamps, stamps[1:]):
+                self.assertLess(earlier, later)
+            self.assertLess(stamps[-1] - stamps[0], rospy.Duration(1.0))
+        finally:
+            simulated.passes = True
 
     def test_the_pose_is_known_again_after_time_jumped_back(self):
         simulated = self.time_from(5000.0)

@@ -15,6 +15,7 @@
 #include "external_command/core/path.h"
 #include "external_command/ros/command_identity.h"
 #include "external_command/ros/motion_topics.h"
+#include "external_command/ros/rising_stamps.h"
 
 namespace external_command {
 
@@ -59,6 +60,9 @@ class CommandGate {
   std::function<ArrivalNumber()> arrivalStamp() const {
     return [arrivals = arrivals_] { return ++*arrivals; };
   }
+
+  /// For what planners compare by its time, motions and stops: later than that of all that was stamped before.
+  ros::Time stamp() { return stamps_.next(); }
 
   /// Differs from those of all other gates, of other processes too.
   const std::string& name() const { return name_; }
@@ -125,12 +129,13 @@ class CommandGate {
   void withdrawLocked();
 
   const std::string name_;
+  RisingStamps stamps_;
   mutable std::mutex mutex_;
   const std::shared_ptr<std::atomic<ArrivalNumber>> arrivals_ = std::make_shared<std::atomic<ArrivalNumber>>(0);
   ArrivalNumber stopped_ = 0;  ///< arrivals up to this one were stopped
   ros::WallTime last_stop_;    ///< zero: never
   AdmittedCommand newest_;     ///< that began, by its arrival
-  ros::Time newest_began_;     ///< no motion of it has an earlier stamp
+  ros::Time newest_began_;     ///< every motion of it has a later stamp
   CancelSource planning_;      ///< raises the newest ticket's token
   std::shared_ptr<const SentMotion> motion_;
   std::deque<std::shared_ptr<const SentMotion>> unshown_;

@@ -21,7 +21,6 @@ class PlanningPads {
   /// @param action  a constant of PlanningPad.
   /// @param stamp   tells the planner which motions a stop is about: those of an earlier one.
   void send(std::uint8_t action, const ros::Time& stamp) const;
-  void send(std::uint8_t action) const { send(action, ros::Time::now()); }
 
  private:
   mutable std::mutex mutex_;

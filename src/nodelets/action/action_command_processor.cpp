@@ -153,7 +153,7 @@ CommandStatus ActionCommandProcessor::sendAndWatch(const ActionCommand& command,
   if (command.command == ActionCommand::STOP) {
     watch();
     endSwitchToAuto(admitted, "STOP");
-    context().gate().stop(true, [this] { context().planningPads().send(PlanningPad::STOP); });
+    context().gate().stop(true, [this] { context().planningPads().send(PlanningPad::STOP, context().gate().stamp()); });
   } else {
     context().registry().requireRunning(admitted);
     context().gate().sendUnlessStopped(admitted, [&] {
@@ -161,7 +161,7 @@ CommandStatus ActionCommandProcessor::sendAndWatch(const ActionCommand& command,
       if (command.command == ActionCommand::VIN_REQ) {
         sendToControl(ControlPad::VIN_REQ);
       } else {
-        context().planningPads().send(kPlanningPads.at(command.command));
+        context().planningPads().send(kPlanningPads.at(command.command), context().gate().stamp());
       }
     });
   }
@@ -181,8 +181,8 @@ void ActionCommandProcessor::endSwitchToAuto(const AdmittedCommand& stop, const 
 CommandStatus ActionCommandProcessor::clearPlanning(const AdmittedCommand& admitted) {
   const std::lock_guard<std::mutex> lock(mutex_);
   endSwitchToAuto(admitted, "CLEAR_PLANNING");
-  const auto cleared =
-      context().gate().stop(true, [this] { context().planningPads().send(PlanningPad::CLEAR_PLANNING); });
+  const auto cleared = context().gate().stop(
+      true, [this] { context().planningPads().send(PlanningPad::CLEAR_PLANNING, context().gate().stamp()); });
   if (cleared) {
     context().registry().update(
         {cleared->command.serial, makeStatus(cleared->command.id, CommandStatus::ERROR, ErrorCode::kCancelled,
