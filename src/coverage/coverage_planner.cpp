@@ -308,10 +308,12 @@ CoveragePlanner::CoveragePlanner(const VehicleParams& vehicle, const CoveragePar
 }
 
 CoverageResult CoveragePlanner::plan(const CoverageArea& area, const std::optional<Pose2d>& start,
-                                     const CoverageProgress& progress, const CancelToken& cancel) const {
+                                     const CoverageProgress& progress, const CancelToken& cancel,
+                                     const std::function<void()>& checked) const {
   const auto began = Clock::now();
   requirePlausible(progress, area.outer, vehicle_, params_, cancel);
   const Field field(vehicle_, params_, area, start, cancel);
+  if (checked) checked();
   const Course course = courseOf(field, progress);
   CoverageResult result;
   if (!field.startWarning().empty()) result.warnings.push_back(field.startWarning());

@@ -366,10 +366,13 @@ FreeSpacePlanner::FreeSpacePlanner(const VehicleParams& vehicle, const FreeSpace
 }
 
 FreeSpacePlan FreeSpacePlanner::plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region,
-                                     const CancelToken& cancel, const EndStates& ends) const {
+                                     const CancelToken& cancel, const EndStates& ends,
+                                     const std::function<void()>& checked) const {
   requireUsable(start, goals, ends);
   cancel.throwIfCancelled();
-  return Planning(vehicle_, params_, start, goals, region, ends, cancel).run();
+  Planning planning(vehicle_, params_, start, goals, region, ends, cancel);
+  if (checked) checked();
+  return planning.run();
 }
 
 }  // namespace external_command

@@ -76,7 +76,7 @@ void FreeSpaceCommandProcessor::processSpecialCommand(const FreeSpaceCommand& co
 
   plan->scene.start = start;
   plan->scene.goal = goal;
-  planner_->append(planner_->plan(start, {goal}, region, deadline, cancel, plan->scene), plan);
+  planner_->append(planner_->plan(start, {goal}, region, deadline, cancel, plan->scene, {}, plan->take_over), plan);
   showRegion(region, &plan->scene);
   plan->command.command_type = PlanningCommand::CUSTOM;
   plan->command.custom_command = packAny(command);

@@ -22,6 +22,7 @@ class FreeSpaceCommandProcessor : public MotionCommandProcessor<FreeSpace> {
   void check(const FreeSpaceCommand& command) const override;
   double planningTime(const FreeSpaceCommand& command, const Pose2d& vehicle) const override;
   std::optional<RoutingTask> convert(const FreeSpaceCommand& command, const PlanStart& start) override;
+  bool takesOver() const override { return true; }
   void processSpecialCommand(const FreeSpaceCommand& command, const CancelToken& cancel, MotionPlan* plan) override;
 
   Pose2d goalOf(const FreeSpaceCommand& command, const PlanStart& start, std::vector<std::string>* warnings) const;

@@ -127,9 +127,11 @@ void PreciseParkingCommandProcessor::processSpecialCommand(const PreciseParkingC
   if (plan->path.empty()) {
     plan->scene.start = entry;
     const EndStates ends{std::nullopt, {straight_on}};
-    planner_->append(planner_->plan(entry, {before}, region, deadline, cancel, plan->scene, ends), plan);
+    planner_->append(planner_->plan(entry, {before}, region, deadline, cancel, plan->scene, ends, plan->take_over),
+                     plan);
     showRegion(region, &plan->scene);
   } else {
+    plan->take_over();
     if (!command.is_start_pose_set) {
       leaveParkingPlace(context(), plan->start.pose(), *planner_, deadline.part(0.5), cancel, plan);
     }

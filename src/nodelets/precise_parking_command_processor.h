@@ -19,6 +19,7 @@ class PreciseParkingCommandProcessor : public MotionCommandProcessor<PrecisePark
   void check(const PreciseParkingCommand& command) const override;
   std::optional<RoutingTask> convert(const PreciseParkingCommand& command, const PlanStart& start) override;
   double planningTime(const PreciseParkingCommand& command, const Pose2d& vehicle) const override;
+  bool takesOver() const override { return true; }
   void processSpecialCommand(const PreciseParkingCommand& command, const CancelToken& cancel,
                              MotionPlan* plan) override;
 

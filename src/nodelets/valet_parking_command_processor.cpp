@@ -218,11 +218,12 @@ void ValetParkingCommandProcessor::park(const ValetParkingCommand& command, cons
                                         const CancelToken& cancel, MotionPlan* plan) const {
   const HdMap& map = context().requireRouter().map();
   const ParkingSpace& space = spaceOf(command);
+  const ParkingSpot spot = spotIn(space);
+  const std::vector<Pose2d> goals = freePosesIn(space, *plan, cancel);
+  plan->take_over();
   if (!command.is_start_pose_set) {
     leaveParkingPlace(context(), plan->start.pose(), *planner_, deadline.part(0.5), cancel, plan);
   }
-  const ParkingSpot spot = spotIn(space);
-  const std::vector<Pose2d> goals = freePosesIn(space, *plan, cancel);
   const Region region = planner_->regionOf(surfaceWith(map, spot.placeFor(goals), plan->path.back().pose(), cancel));
   try {
     leaveRouteFor(goals, {}, region, *planner_, deadline, cancel, plan);

@@ -21,6 +21,7 @@ class ValetParkingCommandProcessor : public MotionCommandProcessor<ValetParking>
   void start() override;
   void check(const ValetParkingCommand& command) const override;
   std::optional<RoutingTask> convert(const ValetParkingCommand& command, const PlanStart& start) override;
+  bool takesOver() const override { return true; }
   void processSpecialCommand(const ValetParkingCommand& command, const CancelToken& cancel, MotionPlan* plan) override;
 
   void reportSmallSpaces() const;

@@ -7,19 +7,17 @@
 #include <chrono>
 #include <future>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "external_command/Action.h"
 #include "external_command/CancelCommand.h"
-#include "external_command/FreeSpace.h"
 #include "external_command/GetCommandStatus.h"
 #include "external_command/PlanningCommand.h"
 #include "external_command/PlanningPad.h"
-#include "external_command/RoiPolygon.h"
-#include "external_command/ZoneCover.h"
 #include "support/blocking_nodelets.h"
 #include "support/inbox.h"
+#include "support/localization.h"
+#include "support/motion_calls.h"
 #include "support/nodelet_manager.h"
 
 namespace external_command {
@@ -27,17 +25,6 @@ namespace {
 
 constexpr double kLatest = 0.1;  // [s]
 constexpr const char* kOtherService = "/other/test/plan";
-
-RoiPolygon bowTie() {
-  RoiPolygon polygon;
-  for (const auto& [x, y] : {std::pair(0.0, 0.0), std::pair(30.0, 30.0), std::pair(30.0, 0.0), std::pair(0.0, 30.0)}) {
-    geometry_msgs::Point point;
-    point.x = x;
-    point.y = y;
-    polygon.points.push_back(point);
-  }
-  return polygon;
-}
 
 bool isMotion(const PlanningCommand& command) { return command.is_motion_command; }
 bool isWithdrawal(const PlanningCommand& command) { return !command.is_motion_command; }
@@ -147,6 +134,50 @@ TEST_F(Cancel, LeavesAPlanAloneWhereANewerCommandIsRefused) {
   EXPECT_NE(zone_cover.response.status.message.find("drivable_roi"), std::string::npos);
   gate->open();
   EXPECT_EQ(planned.get().status, CommandStatus::RUNNING);
+}
+
+TEST_F(Cancel, LeavesAPlanAloneWhereANewerCommandCannotBePlanned) {
+  const Localization localization;
+  localization.place(*planner_, 0.0);
+  HeldPlan older = startHeldPlan(7, true);
+
+  localization.place(*planner_, 0.0);
+  EXPECT_EQ(statusOf(driveStraightOnTo(5e8)).error_code, CommandStatus::INVALID_REQUEST);
+  FreeSpace goal_blocked = driveStraightOnTo(20.0);
+  goal_blocked.request.command.non_drivable_roi = {boxOf(18.0, -1.0, 22.0, 1.0)};
+  EXPECT_EQ(statusOf(goal_blocked).error_code, CommandStatus::GOAL_BLOCKED);
+  FreeSpace start_blocked = driveStraightOnTo(20.0);
+  start_blocked.request.command.drivable_roi = boxOf(10.0, -5.0, 40.0, 5.0);
+  EXPECT_EQ(statusOf(start_blocked).error_code, CommandStatus::START_BLOCKED);
+
+  localization.place(*planner_, 0.0);
+  ZoneCover narrow;
+  narrow.request.command.drivable_roi = boxOf(-20.0, -0.3, 20.0, 0.3);
+  EXPECT_EQ(statusOf(narrow).error_code, CommandStatus::INVALID_REQUEST);
+  ZoneCover elsewhere;
+  elsewhere.request.command.drivable_roi = boxOf(30.0, 30.0, 60.0, 60.0);
+  EXPECT_EQ(statusOf(elsewhere).error_code, CommandStatus::START_BLOCKED);
+  ZoneCover never_begun;
+  never_begun.request.command.drivable_roi = boxOf(-20.0, -20.0, 20.0, 20.0);
+  never_begun.request.command.resume = 1;
+  EXPECT_EQ(statusOf(never_begun).error_code, CommandStatus::INVALID_REQUEST);
+
+  localization.place(*planner_, 0.0);
+  older.gate->open();
+  const CommandStatus status = older.status.get();
+  EXPECT_EQ(status.status, CommandStatus::RUNNING) << status.message;
+}
+
+TEST_F(Cancel, EndsAPlanWhereANewerCommandCanBePlanned) {
+  const Localization localization;
+  localization.place(*planner_, 0.0);
+  HeldPlan older = startHeldPlan(7, true);
+  localization.place(*planner_, 0.0);
+  const CommandStatus newer = statusOf(driveStraightOnTo(20.0));
+  EXPECT_EQ(newer.status, CommandStatus::RUNNING) << newer.message;
+  EXPECT_TRUE(older.gate->waitForLeft(1)) << "though nobody opened the gate";
+  older.gate->open();
+  EXPECT_EQ(older.status.get().error_code, CommandStatus::SUPERSEDED);
 }
 
 TEST_F(Cancel, WithdrawsAMotionFromTheTopicThatTheNextOneDoesNotUse) {

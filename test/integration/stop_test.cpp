@@ -2,7 +2,6 @@
 // A stop gets through whatever the process is busy with, and nothing that was planned before it leaves after it.
 #include <gtest/gtest.h>
 #include <ros/ros.h>
-#include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
 #include <future>
@@ -20,6 +19,7 @@
 #include "support/blocking_nodelets.h"
 #include "support/comes_true.h"
 #include "support/inbox.h"
+#include "support/localization.h"
 #include "support/nodelet_manager.h"
 
 namespace external_command {
@@ -272,33 +272,6 @@ TEST_F(Stop, KeepsWhatWaitsInTheLineOfLegacyRequestsFromBeingSent) {
   requests.publish(request);
   EXPECT_TRUE(commands.waitFor(1)) << "what arrives after the stop is sent";
 }
-
-/// A localization that tells where the test wants the vehicle to be.
-class Localization {
- public:
-  Localization() { publisher_ = ros::NodeHandle().advertise<tf2_msgs::TFMessage>("/tf", 10); }
-
-  /// Returns once `planner` sees the vehicle there.
-  void place(const BlockingPlanner& planner, double x) const {
-    tf2_msgs::TFMessage message;
-    message.transforms.resize(1);
-    auto& transform = message.transforms[0];
-    transform.header.frame_id = "map";
-    transform.child_frame_id = "base_link";
-    transform.transform.translation.x = x;
-    transform.transform.rotation.w = 1.0;
-    const auto tell = [&] {
-      transform.header.stamp = ros::Time::now();
-      publisher_.publish(message);
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-      return planner.seesVehicleAt(x);
-    };
-    EXPECT_TRUE(comesTrue(tell)) << "the vehicle is not seen at x = " << x;
-  }
-
- private:
-  ros::Publisher publisher_;
-};
 
 TEST_F(Stop, IsNoCaseForAVehicleThatHasDrivenTheFirstOfItsPathMeanwhile) {
   const Localization localization;

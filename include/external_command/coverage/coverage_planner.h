@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -72,6 +73,7 @@ class CoveragePlanner {
   /// @param progress  to go on with an earlier plan, in the same area; it may have new holes since. The ratios
   ///                  then tell of the whole plan, the path and the lengths of what is still to be done. Of a line that
   ///                  was begun the rest is driven, from where it was left or a little before.
+  /// @param checked   called once area, start and progress are found usable, before what takes long.
   /// @throws InvalidRequest   the area is smaller than the vehicle, a hole leaves nothing of it, it is too large, or
   ///                          `progress` is not plausible (requirePlausible).
   /// @throws StartBlocked     the footprint at `start` is outside the area or in a hole; the text says by how much.
@@ -79,7 +81,7 @@ class CoveragePlanner {
   /// @throws PlanningTimeout  time_budget ran out.
   /// @throws Cancelled        `cancel` was raised; noticed within a few milliseconds.
   CoverageResult plan(const CoverageArea& area, const std::optional<Pose2d>& start, const CoverageProgress& progress,
-                      const CancelToken& cancel) const;
+                      const CancelToken& cancel, const std::function<void()>& checked = {}) const;
 
  private:
   VehicleParams vehicle_;

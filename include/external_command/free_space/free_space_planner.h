@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -63,6 +64,7 @@ class FreeSpacePlanner {
   /// A start or goal that is nearer to an obstacle than the margin is left or reached with a smaller margin nearby.
   /// @param ends  what leads up to the start, and on from the goals: a gear change there is paid for; without one,
   ///              steering is gradual there too, where there is room.
+  /// @param checked  called once start and goals are found free, before the search.
   /// @throws InvalidRequest   a number is not finite, there is no goal, start and goals lie over 10 km apart, or `ends`
   ///                          names some of the goals only.
   /// @throws StartBlocked     the bare footprint collides at the start; the text says with what and by how much.
@@ -72,7 +74,7 @@ class FreeSpacePlanner {
   /// @throws PlanningTimeout  time_budget ran out first.
   /// @throws Cancelled        `cancel` was raised; noticed within a few milliseconds.
   FreeSpacePlan plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region,
-                     const CancelToken& cancel, const EndStates& ends = {}) const;
+                     const CancelToken& cancel, const EndStates& ends = {}, const std::function<void()>& checked = {}) const;
 
  private:
   VehicleParams vehicle_;

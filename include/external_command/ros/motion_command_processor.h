@@ -23,7 +23,8 @@ namespace external_command {
 /// A derived class must  implement check() and processSpecialCommand() or convert(), and call stopServing() in its
 ///                       destructor.
 /// A derived class must  poll the cancel token in every long loop: a stop or a newer command raises it.
-/// A derived class may   override planningTime(), isPlannedAtOnce() and beginsAtVehicle(), and set MotionPlan::on_sent.
+/// A derived class may   override planningTime(), isPlannedAtOnce(), beginsAtVehicle() and takesOver(), and set
+///                       MotionPlan::on_sent.
 /// The hooks that plan run on a planning thread, below normal priority, but for plans that are made at once, and for
 /// convert() of a command that has to wait for such a thread; no lock is held.
 template <class Service>
@@ -54,6 +55,11 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
   /// True where the plan is only a matter of a route and its path. It is made on the service's own thread then: to hand
   /// it to a planning thread and back would take as long.
   virtual bool isPlannedAtOnce(const Command& /*command*/) const { return false; }
+
+  /// True where processSpecialCommand() calls MotionPlan::take_over itself, once it has found that the command can be
+  /// planned at all, and before what takes long: a command that is refused for its own faults then leaves an older one
+  /// that is being planned alone. Otherwise that is ended before.
+  virtual bool takesOver() const { return false; }
 
   /// False for a path that begins where the command says.
   virtual bool beginsAtVehicle(const Command& command) const { return !startIsGiven(command, 0); }
@@ -168,8 +174,14 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
       const double speed = flow_->cappedSpeed(command.target_speed, &plan.report);
       // The route first, a matter of a millisecond: a command without one must not disturb what is being planned.
       if (const auto task = convert(command, plan.start)) flow_->addRoute(*task, speed, planning.token(), &plan);
-      *ticket = this->context().gate().begin(admitted, planning);
+      bool has_begun = false;
+      plan.take_over = [&] {
+        *ticket = this->context().gate().begin(admitted, planning);
+        has_begun = true;
+      };
+      if (!takesOver()) plan.take_over();
       processSpecialCommand(command, planning.token(), &plan);
+      if (!has_begun) plan.take_over();
       flow_->assemble(speed, is_at_vehicle, planning.token(), &plan);
       if (is_at_vehicle && here.isKnown() && !flow_->fitToVehicle(here.pose(), &plan)) {
         const double took = (ros::SteadyTime::now() - try_begin).toSec();
@@ -178,6 +190,7 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
         continue;
       }
       flow_->complete(command.command_id, speed, &plan);
+      plan.take_over = nullptr;
       return plan;
     }
   }

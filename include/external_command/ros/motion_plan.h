@@ -26,6 +26,11 @@ struct MotionPlan {
 
   std::ptrdiff_t index_shift = 0;  ///< SentMotion::index_shift
 
+  /// Ends the planning of the vehicle's older commands: for a processor that takes over when it does, see
+  /// MotionCommandProcessor::takesOver(). Does nothing in a dry run. May be called more than once.
+  /// @throws Cancelled, Superseded  this one is to be planned no further.
+  std::function<void()> take_over = [] {};
+
   /// Called once the command was really sent, in the thread that planned it: for what must not be kept, or replaced,
   /// for a command that is refused after all. Called in the order of sending; must be quick.
   std::function<void(const SentMotion&)> on_sent;

@@ -170,7 +170,7 @@ Region ManoeuvrePlanner::regionOf(Region::Parts parts) const {
 
 FreeSpacePlan ManoeuvrePlanner::plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region,
                                      const Deadline& deadline, const CancelToken& cancel, const CommandScene& scene,
-                                     const EndStates& ends) const {
+                                     const EndStates& ends, const std::function<void()>& checked) const {
   FreeSpaceParams params = params_;
   params.time_budget = std::min(params_.time_budget, deadline.left());
   params.improve_budget *= params.time_budget / params_.time_budget;
@@ -179,7 +179,7 @@ FreeSpacePlan ManoeuvrePlanner::plan(const Pose2d& start, const std::vector<Pose
                                "; raise ~free_space/time_budget, which is ", seconds(params_.time_budget)));
   }
   try {
-    return FreeSpacePlanner(context_.params().vehicle, params).plan(start, goals, region, cancel, ends);
+    return FreeSpacePlanner(context_.params().vehicle, params).plan(start, goals, region, cancel, ends, checked);
   } catch (const StartBlocked&) {
     showConflicts({start}, region, scene, cancel);
     throw;

@@ -3,6 +3,7 @@
 
 #include <ros/node_handle.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -55,11 +56,12 @@ class ManoeuvrePlanner {
   Deadline deadline() const { return Deadline(params_.time_budget); }
 
   /// The cheapest manoeuvre from `start` to one of `goals` that is found by `deadline`. A start or goal that is blocked
-  /// is shown in rviz together with `scene`. @param ends  what leads up to it and on from it.
+  /// is shown in rviz together with `scene`. @param ends  what leads up to it and on from it. @param checked  as
+  /// FreeSpacePlanner::plan().
   /// @throws  as FreeSpacePlanner::plan()
   FreeSpacePlan plan(const Pose2d& start, const std::vector<Pose2d>& goals, const Region& region,
                      const Deadline& deadline, const CancelToken& cancel, const CommandScene& scene,
-                     const EndStates& ends = {}) const;
+                     const EndStates& ends = {}, const std::function<void()>& checked = {}) const;
 
   /// Shows in rviz what stands in the way of `poses`, together with `scene`.
   /// @throws Cancelled

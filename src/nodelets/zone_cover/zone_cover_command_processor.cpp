@@ -244,17 +244,19 @@ void ZoneCoverCommandProcessor::processSpecialCommand(const ZoneCoverCommand& co
   const CoverageArea zone = zoneOf(command, cancel);
   const CoverageParams params = paramsFor(command);
   const Deadline deadline(params.time_budget);
-  if (!plan->path.empty()) enterZone(command, zone, deadline, cancel, plan);
-  const Pose2d start = plan->path.empty() ? givenStart(command, plan->start) : plan->path.back().pose();
-
   const ZonePlanFile file = fileOf(command, zone, params);
   CoverageProgress progress = progressOf(command, zone, params, file, cancel);
+  if (!plan->path.empty()) {
+    plan->take_over();
+    enterZone(command, zone, deadline, cancel, plan);
+  }
+  const Pose2d start = plan->path.empty() ? givenStart(command, plan->start) : plan->path.back().pose();
   CoverageParams timed = params;
   timed.time_budget = std::max(deadline.left(), kShortestBudget);
   const CoveragePlanner planner(context().params().vehicle, timed);
   std::vector<Swath> on_the_way;
   if (command.resume && beginsAtVehicle(command) && plan->path.empty()) on_the_way = sweptUntil(plan->start, file);
-  CoverageResult coverage = planner.plan(zone, start, afterwards(progress, on_the_way), cancel);
+  CoverageResult coverage = planner.plan(zone, start, afterwards(progress, on_the_way), cancel, plan->take_over);
   const std::size_t offset = plan->path.empty() ? 0 : plan->path.size() - 1;  // join() shares the point between both
   appendCoverage(coverage, plan);
   plan->scene.start = plan->path.front().pose();

@@ -42,6 +42,7 @@ class ZoneCoverCommandProcessor : public MotionCommandProcessor<ZoneCover> {
   void check(const ZoneCoverCommand& command) const override;
   std::optional<RoutingTask> convert(const ZoneCoverCommand& command, const PlanStart& start) override;
   double planningTime(const ZoneCoverCommand& command, const Pose2d& vehicle) const override;
+  bool takesOver() const override { return true; }
   void processSpecialCommand(const ZoneCoverCommand& command, const CancelToken& cancel, MotionPlan* plan) override;
 
   /// With the command's own swath width, where it has one. @throws InvalidRequest
