@@ -242,6 +242,27 @@ TEST(Region, RefusesAGridThatDoesNotFitItsSize) {
   EXPECT_THROW(Region{parts}, InvalidRequest);
 }
 
+TEST(GridFault, IsNoneForAGridThatFitsItsSizeWithoutItsCells) {
+  OccupancyGrid outline = randomGrid(1, 0.0);
+  const std::size_t cells = outline.cells.size();
+  outline.cells.clear();
+  EXPECT_EQ(gridFault(outline, cells), "");
+}
+
+TEST(GridFault, SaysWhatIsWrongAndHowMuch) {
+  const OccupancyGrid good = randomGrid(1, 0.0);
+  EXPECT_EQ(gridFault(good, 7), "the grid holds 7 values; its size of 40 x 30 needs 1200");
+  OccupancyGrid bad = good;
+  bad.resolution = std::nan("");
+  EXPECT_EQ(gridFault(bad, 1200), "the grid's resolution is nan m; it must lie in [0.001, 100]");
+  bad = good;
+  bad.origin.x = HUGE_VAL;
+  EXPECT_EQ(gridFault(bad, 1200), "the grid's origin is not finite");
+  bad = good;
+  bad.width = 0;
+  EXPECT_EQ(gridFault(bad, 0), "the grid has 0 x 30 cells; it must have 1 to 64000000");
+}
+
 TEST(Region, RefusesEmptyAxleBounds) {
   Region::Parts parts;
   parts.axle_bounds = BoundingBox{{0, 0}, {10, 0}};

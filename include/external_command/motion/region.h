@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "external_command/core/polygon.h"
@@ -22,6 +23,10 @@ struct OccupancyGrid {
   bool unknown_is_blocked = true;   ///< cells below 0 are obstacles
   bool outside_is_blocked = false;  ///< so is everything beyond the grid
 };
+
+/// What is wrong with the size, resolution or origin of a grid that has `cells` values, whatever `grid.cells` holds;
+/// empty where it can be used. Takes no time that grows with the grid.
+std::string gridFault(const OccupancyGrid& grid, std::size_t cells);
 
 /// How much memory a region may take while it is planned in.
 struct RegionLimits {
@@ -48,7 +53,7 @@ class Region {
   /// No border, no obstacle.
   Region() = default;
 
-  /// @throws InvalidRequest  the grid's size, resolution or origin is wrong, or the box is empty: the text says which.
+  /// @throws InvalidRequest  the grid has a gridFault(), or the box is empty: the text says which.
   explicit Region(Parts parts);
 
   const std::optional<Polygon>& drivable() const { return parts_.drivable; }

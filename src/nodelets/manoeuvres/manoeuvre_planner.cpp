@@ -24,14 +24,14 @@ struct ManoeuvrePlanner::LatestGrid {
 
 struct ManoeuvrePlanner::PlacedGrid {
   nav_msgs::OccupancyGrid::ConstPtr message;
-  Pose2d frame;  ///< of the message, in the map
+  OccupancyGrid outline;  ///< of the message, in the map: all but its cells
 };
 
 namespace {
 
 constexpr double kLeastBudget = 2e-3;  // that planning can begin with [s]
 
-OccupancyGrid toGrid(const nav_msgs::OccupancyGrid& message, const Pose2d& frame, const ObstacleGridParams& params) {
+OccupancyGrid outlineOf(const nav_msgs::OccupancyGrid& message, const Pose2d& frame, const ObstacleGridParams& params) {
   const auto& origin = message.info.origin;
   OccupancyGrid grid;
   grid.unknown_is_blocked = params.unknown_is_blocked;
@@ -42,7 +42,6 @@ OccupancyGrid toGrid(const nav_msgs::OccupancyGrid& message, const Pose2d& frame
   grid.origin = compose(frame, {origin.position.x, origin.position.y,
                                 tf2::getYaw(tf2::Quaternion(origin.orientation.x, origin.orientation.y,
                                                             origin.orientation.z, origin.orientation.w))});
-  grid.cells = message.data;
   return grid;
 }
 
@@ -129,17 +128,24 @@ ManoeuvrePlanner::PlacedGrid ManoeuvrePlanner::requireGrid() const {
     throw NotReady(text("no obstacle grid has come on ", topic, " (~obstacle_grid_name); is it published?"));
   }
   requireFresh(stamp);
+  Pose2d frame;
   try {
-    return {message, context_.vehiclePose().ofFrame(message->header.frame_id)};
+    frame = context_.vehiclePose().ofFrame(message->header.frame_id);
   } catch (const InvalidRequest& error) {
     throw NotReady(text("the obstacle grid on ", topic, " cannot be placed: ", error.what()));
   }
+  PlacedGrid placed{message, outlineOf(*message, frame, grid_params_)};
+  const std::string fault = gridFault(placed.outline, message->data.size());
+  if (fault.empty()) return placed;
+  throw NotReady(
+      text("the obstacle grid on ", topic, " cannot be used: ", fault, "; what publishes it has to be mended"));
 }
 
 std::optional<OccupancyGrid> ManoeuvrePlanner::grid() const {
   if (!hasGrid()) return std::nullopt;
-  const PlacedGrid grid = requireGrid();
-  return toGrid(*grid.message, grid.frame, grid_params_);
+  PlacedGrid grid = requireGrid();
+  grid.outline.cells = grid.message->data;
+  return std::move(grid.outline);
 }
 
 std::string ManoeuvrePlanner::gridWords() const {

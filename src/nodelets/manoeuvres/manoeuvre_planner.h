@@ -37,7 +37,7 @@ class ManoeuvrePlanner {
   const RegionLimits& regionLimits() const { return region_limits_; }
 
   /// The live obstacle grid; nullopt where none is configured.
-  /// @throws NotReady  it has not come, or is too old.
+  /// @throws NotReady  it has not come, is too old or of the future, lies in an unknown frame, or has a gridFault().
   std::optional<OccupancyGrid> grid() const;
 
   bool hasGrid() const { return !grid_params_.topic.empty(); }
@@ -46,7 +46,7 @@ class ManoeuvrePlanner {
   std::string gridWords() const;
 
   /// `parts` with the live obstacle grid added, where one is configured.
-  /// @throws NotReady  the grid has not come, or is too old.
+  /// @throws NotReady  as grid()
   Region regionOf(Region::Parts parts) const;
 
   /// How much of a path before or behind a manoeuvre may be bent [m]; see PathJoint.
