@@ -80,19 +80,19 @@ const Area& PreciseParkingCommandProcessor::areaOf(const PreciseParkingCommand& 
                             " areas of the map; precise parking needs one, free space does not"));
 }
 
-bool PreciseParkingCommandProcessor::needsNoLanes(const PreciseParkingCommand& command, const Pose2d& vehicle) const {
+bool PreciseParkingCommandProcessor::needsNoLanes(const PreciseParkingCommand& command, const PlanStart& start) const {
   return !command.is_start_pose_set && command.way_point.empty() &&
-         areaOf(command).polygon.contains(vehicle.position());
+         areaOf(command).polygon.contains(start.pose().position());
 }
 
 double PreciseParkingCommandProcessor::planningTime(const PreciseParkingCommand& command, const Pose2d& vehicle) const {
-  return needsNoLanes(command, vehicle) ? planner_->params().time_budget : 0.0;
+  return needsNoLanes(command, PlanStart(vehicle)) ? planner_->params().time_budget : 0.0;
 }
 
 std::optional<RoutingTask> PreciseParkingCommandProcessor::convert(const PreciseParkingCommand& command,
                                                                    const PlanStart& start) {
   const Area& area = areaOf(command);
-  if (needsNoLanes(command, start.pose())) return std::nullopt;
+  if (needsNoLanes(command, start)) return std::nullopt;
   const HdMap& map = context().requireRouter().map();
   RoutingTask task =
       beginRoutingTask(context(), start, command.header.frame_id, command.is_start_pose_set, command.way_point);

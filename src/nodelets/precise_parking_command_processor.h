@@ -24,7 +24,7 @@ class PreciseParkingCommandProcessor : public MotionCommandProcessor<PrecisePark
                              MotionPlan* plan) override;
 
   Pose2d spotOf(const PreciseParkingCommand& command) const;
-  bool needsNoLanes(const PreciseParkingCommand& command, const Pose2d& vehicle) const;
+  bool needsNoLanes(const PreciseParkingCommand& command, const PlanStart& start) const;
   const Area& areaOf(const PreciseParkingCommand& command) const;
 
   std::optional<ManoeuvrePlanner> planner_;

@@ -6,11 +6,12 @@ import unittest
 import rospy
 import rostest
 import tf2_ros
-from geometry_msgs.msg import TransformStamped
+from geometry_msgs.msg import Point, TransformStamped
 
 import support
-from external_command.msg import CommandStatus, LaneFollowCommand, PathFollowCommand, PlanningCommand, Pose
-from external_command.srv import LaneFollow, PathFollow
+from external_command.msg import (CommandStatus, LaneFollowCommand, PathFollowCommand, PlanningCommand, Pose,
+                                  PreciseParkingCommand, RoiPolygon, ValetParkingCommand, ZoneCoverCommand)
+from external_command.srv import LaneFollow, PathFollow, PreciseParking, ValetParking, ZoneCover
 
 EAST_END = Pose(x=300.0, y=195.0)
 
@@ -21,6 +22,24 @@ def lane_follow(ns, **fields):
 
 def path_follow(ns, command):
     return support.service("/%s/external_command/path_follow" % ns, PathFollow)(command).status
+
+
+def commands_from(place):
+    """{what it is: a call of the gateway that knows no pose, as a dry run}, for motions that take a start."""
+    square = RoiPolygon([Point(x=place.x + x, y=place.y + y) for x, y in ((-6, -6), (30, -6), (30, 12), (-6, 12))])
+    kinds = {
+        "lane_follow": (LaneFollow, LaneFollowCommand, dict(end_pose=EAST_END)),
+        "valet_parking": (ValetParking, ValetParkingCommand, dict(parking_spot_id="n_out_10")),
+        "precise_parking": (PreciseParking, PreciseParkingCommand,
+                            dict(parking_spot_pose=Pose(x=322.0, y=110.0, has_heading=True), parking_inwards=True)),
+        "zone_cover of an area": (ZoneCover, ZoneCoverCommand, dict(zone_cover_area_id="yard", swath_width=5.0)),
+        "zone_cover of a polygon": (ZoneCover, ZoneCoverCommand, dict(drivable_roi=square, swath_width=4.0))}
+
+    def call(kind, **fields):
+        service_type, command, own = kinds[kind]
+        service = support.service("/without_pose/external_command/" + kind.split()[0], service_type)
+        return service(command(dry_run=True, **own, **fields)).status
+    return {kind: lambda kind=kind, **fields: call(kind, **fields) for kind in kinds}
 
 
 class NotReadyTest(unittest.TestCase):
@@ -59,9 +78,18 @@ class NotReadyTest(unittest.TestCase):
         self.assertEqual(sent.messages, [])
 
     def test_a_given_start_needs_no_vehicle(self):
-        status = lane_follow("without_pose", end_pose=EAST_END, is_start_pose_set=True, dry_run=True,
-                             way_point=[Pose(x=100.0, y=195.0)])
-        self.assertEqual(status.status, CommandStatus.FINISHED, support.describe(status))
+        start = Pose(x=100.0, y=195.0, heading=0.0, has_heading=True)
+        for name, call in commands_from(start).items():
+            with self.subTest(name):
+                status = call(is_start_pose_set=True, way_point=[start])
+                self.assertEqual(status.status, CommandStatus.FINISHED, support.describe(status))
+
+    def test_without_a_given_start_the_vehicle_is_asked_for(self):
+        for name, call in commands_from(EAST_END).items():
+            with self.subTest(name):
+                status = call()
+                self.assertEqual(status.error_code, CommandStatus.NOT_READY, support.describe(status))
+                self.assertIn("pose", status.message)
 
 
 if __name__ == "__main__":
