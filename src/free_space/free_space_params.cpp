@@ -36,7 +36,7 @@ void FreeSpaceParams::validate() const {
   requireParameter("steering_cost", steering_cost, 0.0, 100.0);
   requireParameter("closeness_cost", closeness_cost, 0.0, 100.0);
   requireParameter("closeness_distance", closeness_distance, 0.01, 2.0);
-  requireParameter("spacing", spacing, 0.01, 1.0);
+  requireParameter("path_spacing", spacing, 0.01, 1.0);
   requireParameter("manoeuvre_speed", manoeuvre_speed, 0.01, 5.0);
 }
 

@@ -1,20 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "external_command/ros/diagnostics.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "external_command/ros/parameter_check.h"
+#include "external_command/ros/parameters.h"
 #include "external_command/ros/status.h"
 
 namespace external_command {
 
+namespace {
+
+/// The updater reads it too, and takes whatever it finds.
+double readPeriod(const ros::NodeHandle& parameters) {
+  double period = 1.0;
+  ParameterReader(parameters).readWithin("diagnostic_period", 0.1, 3600.0, &period);
+  return period;
+}
+
+}  // namespace
+
 Diagnostics::Diagnostics(const ros::NodeHandle& nh, const ros::NodeHandle& parameters, const Conditions& conditions)
-    : conditions_(conditions), updater_(nh, parameters, parameters.getNamespace()) {
+    : conditions_(conditions), period_(readPeriod(parameters)), updater_(nh, parameters, parameters.getNamespace()) {
   updater_.setHardwareID("none");
-  for (const char* name : {"diagnostic_period", "diagnostics_use_fqn"}) {
-    noteKnownParameter(parameters.resolveName(name));
-  }
+  noteKnownParameter(parameters.resolveName("diagnostics_use_fqn"));  // read by the updater of ROS Noetic
 }
 
 void Diagnostics::add(const std::string& name, std::function<void(Status&)> fill) { values_[name] = std::move(fill); }
@@ -55,11 +64,6 @@ void Diagnostics::fill(const std::string& name, Status& status) const {
   }
   const auto values = values_.find(name);
   if (values != values_.end()) values->second(status);
-}
-
-double Diagnostics::period() {
-  constexpr double kLeast = 0.1, kMost = 3600.0;  // [s]
-  return std::clamp(updater_.getPeriod(), kLeast, kMost);
 }
 
 }  // namespace external_command

@@ -28,7 +28,7 @@ bool changesGear(const Path& path, std::size_t i) {
 
 void MotionWatchParams::validate() const {
   tolerances.validate();
-  requireParameter("silence", silence, 0.0, 3600.0);
+  requireParameter("arrival_silence", silence, 0.0, 3600.0);
 }
 
 const Pose2d& PlanStart::pose() const {

@@ -48,13 +48,13 @@ MotionWatchParams readMotionWatchParams(const ParameterReader& reader) {
         text("parameter ", reader.nameOf("arrival"), " is '", word, "'; give reported, pose or both"));
   }
   params.arrival = source->second;
-  reader.read("arrival_silence", &params.silence);
+  reader.readWithin("arrival_silence", 0.0, 3600.0, &params.silence);
   const ParameterReader tolerance = reader.within("arrival_tolerance");
   tolerance.read("along", &params.tolerances.along);
   tolerance.read("across", &params.tolerances.across);
   tolerance.read("heading", &params.tolerances.heading);
   tolerance.read("rest", &params.tolerances.rest);
-  tolerance.validate(params);
+  tolerance.validate(params.tolerances);
   return params;
 }
 
@@ -63,6 +63,25 @@ std::string readMapCacheFolder(const ParameterReader& reader) {
   std::string folder;
   reader.read("map_cache_folder", &folder);
   return folder == "none" ? "" : rosFolder(folder, "external_command/maps");
+}
+
+/// The name of a tf2 frame, which is never empty; `*frame` holds the default.
+void readFrame(const ParameterReader& reader, const std::string& key, std::string* frame) {
+  std::string given = *frame;
+  reader.read(key, &given);
+  *frame = frameId(given);
+  if (!frame->empty()) return;
+  throw InvalidParameter(
+      text("parameter ", reader.nameOf(key), " is '", given, "', no name of a frame; rostopic echo /tf shows them"));
+}
+
+void readFrames(const ParameterReader& reader, ContextParams* params) {
+  readFrame(reader, "map_frame", &params->map_frame);
+  readFrame(reader, "base_frame", &params->base_frame);
+  if (params->map_frame != params->base_frame) return;
+  throw InvalidParameter(text("parameters ", reader.nameOf("map_frame"), " and ", reader.nameOf("base_frame"),
+                              " are both '", params->map_frame,
+                              "'; the vehicle's pose is the transform from the one to the other"));
 }
 
 /// Where the vehicle is, where that is known.
@@ -89,10 +108,7 @@ ContextParams readContextParams(const ParameterReader& reader) {
   params.map_origin = readMapOrigin(reader);
   params.map_cache_folder = readMapCacheFolder(reader);
   params.map = readMapParams(reader.within("map"));
-  reader.read("map_frame", &params.map_frame);
-  reader.read("base_frame", &params.base_frame);
-  params.map_frame = frameId(params.map_frame);
-  params.base_frame = frameId(params.base_frame);
+  readFrames(reader, &params);
   reader.readWithin("max_pose_age", 0.01, 3600.0, &params.max_pose_age);
   reader.readWithin("max_future_stamp", 0.0, 3600.0, &params.max_future_stamp);
   reader.readWithin("planner_silence_timeout", 0.1, 86400.0, &params.planner_silence_timeout);

@@ -16,7 +16,7 @@ constexpr std::size_t kMostTexts = 20;
 }  // namespace
 
 void ReferencePathParams::validate() const {
-  requireParameter("spacing", spacing, 0.05, 5.0);
+  requireParameter("path_spacing", spacing, 0.05, 5.0);
   requireParameter("lane_change_length", lane_change_length, 1.0, 500.0);
   requireParameter("default_speed_limit", default_speed_limit, 0.1, 100.0);
 }

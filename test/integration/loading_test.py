@@ -138,6 +138,7 @@ class LoadingTest(unittest.TestCase):
             "map_file": ("/nowhere/base_map.bin", "/nowhere/base_map.bin"),
             "map_origin": ([1.0], "none, auto, or [x, y]"),
             "map_frame": (3, "string"),
+            "diagnostic_period": ("often", "number"),
             "max_pose_age": (-1.0, "[0.01, 3600]"),
             "planner_silence_timeout": ("long", "number"),
             "vehicle": ({"width": -2.0}, "vehicle/width"),
@@ -147,6 +148,43 @@ class LoadingTest(unittest.TestCase):
             with self.subTest(name):
                 parameters = dict({"processors": [LANE_FOLLOW]}, **{name: value})
                 self.assert_stops(Component(NAMESPACE, {"external_command": parameters}), name, expected)
+
+    def test_a_frame_without_a_name_stops_the_start(self):
+        for key, value in (("map_frame", ""), ("map_frame", "/"), ("base_frame", "")):
+            with self.subTest(key=key, value=value):
+                self.assert_stops(component([LANE_FOLLOW], **{key: value}), NAMESPACE + "/external_command/" + key,
+                                  "is '%s', no name of a frame" % value)
+
+    def test_one_frame_for_map_and_vehicle_stops_the_start(self):
+        for frames in ({"base_frame": "map"}, {"map_frame": "base_link"}, {"map_frame": "/odom", "base_frame": "odom"}):
+            with self.subTest(frames):
+                self.assert_stops(component([LANE_FOLLOW], **frames), NAMESPACE + "/external_command/map_frame",
+                                  NAMESPACE + "/external_command/base_frame", "both")
+
+    def test_starts_with_frames_of_other_names(self):
+        self.assert_starts(component([LANE_FOLLOW], map_frame="/world", base_frame="rear_axle"))
+
+    def test_a_period_of_diagnostics_that_is_none_stops_the_start(self):
+        for period in (-1.0, 0.0, 0.05, 5e9, 1e30, float("inf"), float("nan")):
+            with self.subTest(period):
+                self.assert_stops(component([LANE_FOLLOW], diagnostic_period=period),
+                                  "parameter %s/external_command/diagnostic_period is " % NAMESPACE, "[0.1, 3600]")
+
+    def test_starts_with_a_period_of_diagnostics_at_either_end(self):
+        for period in (0.1, 3600):
+            with self.subTest(period):
+                self.assert_starts(component([LANE_FOLLOW], diagnostic_period=period))
+
+    def test_a_range_is_told_by_the_parameters_name(self):
+        own = {"routing": {"path_spacing": 100.0}, "arrival_silence": -1.0, "arrival_tolerance": {"along": 0.0}}
+        for key, value in own.items():
+            with self.subTest(key):
+                name = key if not isinstance(value, dict) else next(iter(value))
+                self.assert_stops(component([LANE_FOLLOW], **{key: value}), NAMESPACE + "/external_command", key,
+                                  name + " is ")
+        manoeuvres = {"lane_follow_command_processor": {"free_space": {"path_spacing": 100.0}}}
+        self.assert_stops(component([LANE_FOLLOW], manoeuvres), "lane_follow_command_processor/free_space",
+                          "path_spacing is 100; it must lie in [0.01, 1]")
 
     def test_a_number_that_is_none_stops_the_start(self):
         routing = {"tight_lane_change_price": float("nan")}

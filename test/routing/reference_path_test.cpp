@@ -363,7 +363,7 @@ TEST(ReferencePath, DrivesALoop) {
 TEST(ReferencePath, RefusesParametersOutOfRange) {
   ReferencePathParams params;
   params.spacing = 0.0;
-  EXPECT_THAT_REFUSED(params.validate(), InvalidParameter, "spacing is 0");
+  EXPECT_THAT_REFUSED(params.validate(), InvalidParameter, "path_spacing is 0");
   params.spacing = 0.5;
   EXPECT_NO_THROW(params.validate());
 }

@@ -21,13 +21,14 @@ class Diagnostics {
 
   /// @param parameters  of `diagnostic_period` and `diagnostics_use_fqn`; its namespace is the name before the colon.
   /// @param conditions  must live as long as this.
+  /// @throws InvalidParameter  `diagnostic_period` is no number in [0.1, 3600] s.
   Diagnostics(const ros::NodeHandle& nh, const ros::NodeHandle& parameters, const Conditions& conditions);
 
   /// Adds values to the condition `name`, or a status of its own where there is none of that name.
   void add(const std::string& name, std::function<void(Status&)> fill);
 
-  /// Between two calls of publish() [s].
-  double period();
+  /// Between two calls of publish() [s], in [0.1, 3600].
+  double period() const { return period_; }
 
   void publish();
 
@@ -36,6 +37,7 @@ class Diagnostics {
   void fill(const std::string& name, Status& status) const;
 
   const Conditions& conditions_;
+  const double period_;
   diagnostic_updater::Updater updater_;
   std::map<std::string, std::function<void(Status&)>> values_;
   std::map<std::string, Condition> seen_;  ///< by their names
