@@ -42,11 +42,17 @@ void requireNotNegative(double value, const char* name) {
   throw InvalidParameter(text(name, " is ", value, "; it must be finite, and not negative (0: no limit)"));
 }
 
+void requireMaxSpeed(double speed) {
+  requireNotNegative(speed, "max_speed");
+  if (speed == 0.0 || speed >= kLeastSpeed) return;
+  throw InvalidParameter(text("max_speed is ", speed, "; it must be ", kLeastSpeed, " m/s at least, or 0 (no limit)"));
+}
+
 }  // namespace
 
 void DriveLimits::validate() const {
   requireNotNegative(max_goal_distance, "max_goal_distance");
-  requireNotNegative(max_speed, "max_speed");
+  if (max_speed != 0.0) requireMaxSpeed(max_speed);
 }
 
 void DriveLimits::requireSpeed(double target_speed) const {

@@ -9,6 +9,7 @@ namespace external_command {
 namespace {
 
 constexpr double kSamePoint = 1e-6;  // [m]
+constexpr double kSlowest = 1e-9;    // that is no stop: the square of less may be lost [m/s]
 constexpr double kNoTurn = 1e-9;     // of the wheels [rad]
 
 double stepLength(const ReferencePoint& from, const ReferencePoint& to) {
@@ -98,8 +99,8 @@ void limitSpeeds(const VehicleParams& vehicle, Path* path) {
   const double reverse = vehicle.max_reverse_speed * vehicle.max_reverse_speed;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double kappa = std::abs(points[i].kappa);
-    squares[i] =
-        std::min(points[i].speed * points[i].speed, points[i].direction == Direction::kForward ? forward : reverse);
+    const double cap = std::max(points[i].speed, kSlowest);
+    squares[i] = std::min(cap * cap, points[i].direction == Direction::kForward ? forward : reverse);
     if (kappa > 1e-6) squares[i] = std::min(squares[i], vehicle.max_lateral_acceleration / kappa);
     if (isCusp(points, i)) squares[i] = 0.0;
   }

@@ -11,8 +11,8 @@ void VehicleParams::validate() const {
   requireParameter("vehicle/front_overhang", front_overhang, 0.0, 15.0);
   requireParameter("vehicle/rear_overhang", rear_overhang, 0.0, 15.0);
   requireParameter("vehicle/min_turning_radius", min_turning_radius, 0.1, 100.0);
-  requireParameter("vehicle/max_speed", max_speed, 0.01, 100.0);
-  requireParameter("vehicle/max_reverse_speed", max_reverse_speed, 0.01, 100.0);
+  requireParameter("vehicle/max_speed", max_speed, kLeastSpeed, 100.0);
+  requireParameter("vehicle/max_reverse_speed", max_reverse_speed, kLeastSpeed, 100.0);
   requireParameter("vehicle/max_acceleration", max_acceleration, 0.01, 20.0);
   requireParameter("vehicle/max_deceleration", max_deceleration, 0.01, 20.0);
   requireParameter("vehicle/max_lateral_acceleration", max_lateral_acceleration, 0.01, 20.0);

@@ -47,7 +47,7 @@ void FreeSpaceCommandProcessor::check(const FreeSpaceCommand& command) const {
   checkPolygons(command.non_drivable_roi, "non_drivable_roi", context().params().requests);
   if (!command.drivable_roi.points.empty())
     checkPolygon(command.drivable_roi, "drivable_roi", context().params().requests);
-  requireNotNegative(command.target_speed, "target_speed");
+  requireTargetSpeed(command.target_speed);
   partsOf(command, {}, {});  // polygons that cross themselves
 }
 

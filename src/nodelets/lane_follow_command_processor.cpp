@@ -26,7 +26,7 @@ void LaneFollowCommandProcessor::check(const LaneFollowCommand& command) const {
   checkWayPoints(command.way_point, command.is_start_pose_set, context().params().requests);
   requireFinite(command.end_pose, "end_pose");
   checkBlackList(command.blacklisted_lane, command.blacklisted_road, context().params().requests);
-  requireNotNegative(command.target_speed, "target_speed");
+  requireTargetSpeed(command.target_speed);
 }
 
 std::optional<RoutingTask> LaneFollowCommandProcessor::convert(const LaneFollowCommand& command,

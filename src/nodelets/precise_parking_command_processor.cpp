@@ -64,7 +64,7 @@ void PreciseParkingCommandProcessor::check(const PreciseParkingCommand& command)
   if (command.mission_type > PreciseParkingCommand::DUMP) {
     throw InvalidRequest(text("mission_type is ", static_cast<int>(command.mission_type), "; give CHARGE 0 or DUMP 1"));
   }
-  requireNotNegative(command.target_speed, "target_speed");
+  requireTargetSpeed(command.target_speed);
 }
 
 Pose2d PreciseParkingCommandProcessor::spotOf(const PreciseParkingCommand& command) const {

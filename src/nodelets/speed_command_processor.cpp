@@ -26,10 +26,10 @@ void SpeedCommandProcessor::check(const SpeedCommand& command) const {
   switch (command.kind) {
     case SpeedCommand::TARGET_SPEED:
       context().params().limits.requireSpeed(command.target_speed);
-      if (command.target_speed > 0.0) return;
-      throw InvalidRequest(
-          "target_speed is 0, which means not given; it must be above 0 (to halt: target_speed_factor 0, or the action "
-          "STOP)");
+      if (command.target_speed >= kLeastSpeed) return;
+      throw InvalidRequest(text("target_speed is ", command.target_speed,
+                                command.target_speed == 0.0 ? ", which means not given" : " m/s", "; it must be ",
+                                kLeastSpeed, " m/s at least (to halt: target_speed_factor 0, or the action STOP)"));
     case SpeedCommand::TARGET_SPEED_FACTOR:
     case SpeedCommand::RESTORE_TARGET_SPEED:
       return;

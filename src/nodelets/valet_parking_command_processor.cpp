@@ -102,7 +102,7 @@ void ValetParkingCommandProcessor::check(const ValetParkingCommand& command) con
   }
   checkWayPoints(command.way_point, command.is_start_pose_set, context().params().requests);
   checkBlackList(command.blacklisted_lane, command.blacklisted_road, context().params().requests);
-  requireNotNegative(command.target_speed, "target_speed");
+  requireTargetSpeed(command.target_speed);
 }
 
 ParkingSpot ValetParkingCommandProcessor::spotIn(const ParkingSpace& space) const {

@@ -5,6 +5,7 @@
 
 #include "external_command/core/error.h"
 #include "external_command/core/text.h"
+#include "external_command/core/vehicle.h"
 
 namespace external_command {
 
@@ -24,6 +25,13 @@ void requireFinite(double value, const std::string& field) {
 void requireNotNegative(double value, const std::string& field) {
   requireFinite(value, field);
   if (value < 0.0) throw InvalidRequest(text(field, " is ", value, "; it must not be negative"));
+}
+
+void requireTargetSpeed(double value, const std::string& field) {
+  requireNotNegative(value, field);
+  if (value == 0.0 || value >= kLeastSpeed) return;
+  throw InvalidRequest(text(field, " is ", value, " m/s; it must be 0, which means not given, or ", kLeastSpeed,
+                            " at least (to halt: the action STOP)"));
 }
 
 void requireWithin(double value, double low, double high, const std::string& field) {

@@ -80,6 +80,14 @@ TEST(DriveLimits, RefuseASpeedTooHigh) {
   EXPECT_THROW(limits.requireSpeed(5.1), InvalidRequest);
 }
 
+TEST(DriveLimits, RefuseALimitThatNoVehicleDrivesAt) {
+  DriveLimits limits;
+  limits.max_speed = 0.01;
+  EXPECT_NO_THROW(limits.validate());
+  limits.max_speed = 0.009;
+  EXPECT_THROW(limits.validate(), InvalidParameter);
+}
+
 TEST(DriveLimits, RefuseParametersBelowZero) {
   DriveLimits limits;
   limits.max_speed = -1.0;

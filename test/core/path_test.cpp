@@ -179,6 +179,13 @@ TEST(SpeedLimits, AreAbove0OutsideOfTheStops) {
   }
 }
 
+TEST(SpeedLimits, AreAbove0WhateverTheCap) {
+  Path path = aheadAndBack();
+  for (ReferencePoint& point : path) point.speed = 1e-200;
+  limitSpeeds({}, &path);
+  for (std::size_t i = 0; i < path.size(); ++i) EXPECT_EQ(path[i].speed == 0.0, i == 20 || i == 30) << i;
+}
+
 TEST(SpeedLimits, KeepToBendsGearsAndWhatWasThereBefore) {
   VehicleParams vehicle;
   vehicle.max_lateral_acceleration = 2.0;

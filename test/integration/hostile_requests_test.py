@@ -272,6 +272,19 @@ class HostileRequestsTest(unittest.TestCase):
             speed = started.service("external_command/speed", Speed)(msg.SpeedCommand(kind=1, target_speed=5.0))
             self.assert_refused(speed.status, "~limits/max_speed")
 
+    def test_refuses_a_target_speed_that_no_vehicle_drives_at(self):
+        motions = ("lane_follow", "valet_parking", "free_space", "path_follow", "precise_parking", "zone_cover")
+        with component() as started:
+            def status_of(name, target_speed):
+                command = fuzz_bytes.example(name)
+                command.dry_run, command.target_speed = True, target_speed
+                return started.service("external_command/" + name, SERVICES[name][0])(command).status
+
+            for name in motions:
+                with self.subTest(name):
+                    self.assert_refused(status_of(name, 1e-200), "target_speed is 1e-200 m/s", "0.01 at least")
+                    self.assertNotIn("target_speed", status_of(name, 0.01).message)
+
     def test_takes_bytes_that_are_no_text_for_a_text(self):
         """rospy cannot send them, but others can."""
         with component() as started:

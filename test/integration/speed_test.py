@@ -80,6 +80,8 @@ class SpeedTest(unittest.TestCase):
         self.assert_refused(change_speed(SpeedCommand.TARGET_SPEED), invalid, "target_speed is 0")
         for speed in (math.nan, math.inf):
             self.assert_refused(change_speed(SpeedCommand.TARGET_SPEED, target_speed=speed), invalid, "finite")
+        self.assert_refused(change_speed(SpeedCommand.TARGET_SPEED, target_speed=1e-200), invalid,
+                            "target_speed is 1e-200 m/s", "0.01 m/s at least")
         for factor in (-0.1, 1.1, math.nan):
             self.assert_refused(change_speed(SpeedCommand.TARGET_SPEED_FACTOR, target_speed_factor=factor), invalid,
                                 "target_speed_factor", "[0, 1]")

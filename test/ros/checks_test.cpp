@@ -36,6 +36,21 @@ TEST(Checks, RefuseCoordinatesOfNoMapAndNameTheField) {
   }
 }
 
+TEST(Checks, TakeATargetSpeedThatAVehicleDrivesAtOrThatIsNotGiven) {
+  for (const double speed : {0.0, 0.01, 1.0, 1e300}) EXPECT_NO_THROW(requireTargetSpeed(speed)) << speed;
+}
+
+TEST(Checks, RefuseATargetSpeedThatNoVehicleDrivesAt) {
+  for (const double speed : {1e-320, 1e-160, 0.0099, -1.0, kNan, kInfinity}) {
+    try {
+      requireTargetSpeed(speed);
+      FAIL() << speed << " was taken";
+    } catch (const InvalidRequest& error) {
+      EXPECT_NE(std::string(error.what()).find("target_speed is "), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(Checks, TakeARequestWithoutAStampOrWithARecentOne) {
   ros::Time::init();
   EXPECT_NO_THROW(requireFresh(ros::Time(), 2.0));

@@ -19,7 +19,7 @@ DeliverParcelProcessor::~DeliverParcelProcessor() { stopServing(); }
 void DeliverParcelProcessor::check(const DeliverParcelCommand& command) const {
   if (command.parcel_id.empty()) throw ec::InvalidRequest("parcel_id is empty; say which parcel to deliver");
   ec::requireFinite(command.station, "station");
-  ec::requireNotNegative(command.target_speed, "target_speed");
+  ec::requireTargetSpeed(command.target_speed);
 }
 
 std::optional<ec::RoutingTask> DeliverParcelProcessor::convert(const DeliverParcelCommand& command,

@@ -13,7 +13,7 @@ namespace external_command {
 struct DriveLimits {
   std::optional<Polygon> geofence;  ///< that every path keeps the whole vehicle inside, in the map frame
   double max_goal_distance = 0.0;   ///< from where the vehicle is to where it is sent, straight [m]
-  double max_speed = 0.0;           ///< [m/s]
+  double max_speed = 0.0;           ///< [m/s], kLeastSpeed at least
 
   /// @throws InvalidParameter  out of range.
   void validate() const;

@@ -7,6 +7,9 @@
 
 namespace external_command {
 
+/// A slower vehicle stands: no speed to drive at is set, or asked for, below this [m/s].
+constexpr double kLeastSpeed = 0.01;
+
 /// Size and limits of a car-like vehicle. The reference point is the rear-axle centre (`base_link`).
 struct VehicleParams {
   double wheelbase = 2.8;                 ///< [m]

@@ -17,6 +17,8 @@ namespace external_command {
 /// Each throws InvalidRequest with the field's name, its value and what was expected.
 void requireFinite(double value, const std::string& field);
 void requireNotNegative(double value, const std::string& field);
+/// A speed to drive at [m/s]: 0, which means not given, or kLeastSpeed at least.
+void requireTargetSpeed(double value, const std::string& field = "target_speed");
 void requireWithin(double value, double low, double high, const std::string& field);
 /// @param limit  name of the parameter that sets `high`, where there is one.
 void requireSize(std::size_t size, std::size_t low, std::size_t high, const std::string& field,

@@ -170,7 +170,7 @@ void PathFollowCommandProcessor::takePath(const ros::MessageEvent<nav_msgs::Path
 void PathFollowCommandProcessor::check(const PathFollowCommand& command) const {
   checkPoints(command.way_point, 2, "way_point");
   checkBorders(command);
-  requireNotNegative(command.target_speed, "target_speed");
+  requireTargetSpeed(command.target_speed);
   const Pose2d frame = context().vehiclePose().ofFrame(command.header.frame_id);
   checkWaypoints(toLine(command, frame), context().params().reference_path.spacing, context().params().path_bounds);
 }

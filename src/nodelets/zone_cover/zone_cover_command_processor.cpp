@@ -117,7 +117,7 @@ void ZoneCoverCommandProcessor::check(const ZoneCoverCommand& command) const {
   if (by_polygon) checkPolygon(command.drivable_roi, "drivable_roi", context().params().requests);
   checkPolygons(command.non_drivable_roi, "non_drivable_roi", context().params().requests);
   paramsFor(command);
-  requireNotNegative(command.target_speed, "target_speed");
+  requireTargetSpeed(command.target_speed);
   if (!command.skip_swath.empty() && !command.resume) {
     throw InvalidRequest("skip_swath needs resume: swaths are known of a zone that was begun");
   }
