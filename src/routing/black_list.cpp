@@ -11,6 +11,8 @@ namespace external_command {
 
 namespace {
 
+constexpr double kRounding = 1e-3;  // of an s that a program has computed [m]
+
 LaneRange rangeOf(const HdMap& map, const BlackListedLane& part, const std::string& name) {
   const auto lane = map.findLane(part.id);
   if (!lane)
@@ -18,10 +20,12 @@ LaneRange rangeOf(const HdMap& map, const BlackListedLane& part, const std::stri
         text(name, " names lane ", quoted(part.id), ", which the map does not have", nearLaneIds(map, part.id)));
   const double length = map.lane(*lane).length();
   if (part.start_s == 0.0 && part.end_s == 0.0) return {*lane, 0.0, length};
-  if (!(part.start_s <= part.end_s && part.start_s <= length && part.end_s >= 0.0)) {  // catches NaN
+  if (!(part.start_s < part.end_s && part.start_s <= length && part.start_s >= -kRounding)) {  // catches NaN
     throw InvalidRequest(text(name, " goes from s ", part.start_s, " to ", part.end_s, " m; lane ", part.id,
-                              " goes from 0 to ", length, " m (both 0: the whole lane)"));
+                              " goes from 0 to ", length,
+                              " m: give a start_s on it, and an end_s beyond that (both 0: the whole lane)"));
   }
+  // Maps may state another length than the centre line has, and callers take the end of the lane from that.
   return {*lane, std::max(part.start_s, 0.0), std::min(part.end_s, length)};
 }
 

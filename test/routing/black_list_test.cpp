@@ -29,6 +29,17 @@ TEST_F(BlackList, TakesPartsOfLanesAndWholeOnes) {
   EXPECT_NEAR(ranges[1].to_s, 50.0, 1e-9);
 }
 
+TEST_F(BlackList, TakesAPartThatGoesOnBeyondTheLaneToItsEnd) {
+  const auto ranges = blackList(*map, {{"a", 90, 100.2}, {"b", 0, 1e6}}, {});
+  ASSERT_EQ(ranges.size(), 2u);
+  EXPECT_NEAR(ranges[0].to_s, 100.0, 1e-9);
+  EXPECT_NEAR(ranges[1].to_s, 50.0, 1e-9);
+}
+
+TEST_F(BlackList, TakesABeginningThatIsOffByRounding) {
+  EXPECT_EQ(blackList(*map, {{"a", -1e-6, 10}}, {}).front().from_s, 0.0);
+}
+
 TEST_F(BlackList, TakesEveryLaneOfARoad) {
   const auto ranges = blackList(*map, {}, {"main"});
   ASSERT_EQ(ranges.size(), 2u);
@@ -44,10 +55,13 @@ TEST_F(BlackList, RefusesPartsThatAreNone) {
   for (const BlackListedLane& part : {BlackListedLane{"a", 20, 10},
                                       {"a", 101, 110},
                                       {"a", -9, -1},
+                                      {"a", -10, 40},
+                                      {"a", 30, 30},
+                                      {"a", 100, 100},
                                       {"a", NAN, 5},
                                       {"a", 5, NAN},
                                       {"a", INFINITY, INFINITY}}) {
-    EXPECT_THAT_REFUSED(blackList(*map, {part}, {}), InvalidRequest, "blacklisted_lane[0]");
+    EXPECT_THAT_REFUSED(blackList(*map, {part}, {}), InvalidRequest, "blacklisted_lane[0] goes from s ");
   }
 }
 
