@@ -91,8 +91,9 @@ void CommandService::openService() {
   server_ = getNodeHandle().advertiseService(service);
   if (server_) return;
   stopServing();
-  throw InternalError(
-      text("service ", resolvedName(), " is advertised by this process already; is the same processor loaded twice?"));
+  throw InternalError(text("service ", resolvedName(), " is advertised by this process already; is the same processor ",
+                           "loaded twice, or has another one the same name in its input_command_name? That of this ",
+                           "one is set by ", parameters().nameOf("input_command_name")));
 }
 
 CommandOwner CommandService::owner() const { return {id(), service_name_.substr(service_name_.rfind('/') + 1)}; }

@@ -69,6 +69,15 @@ class LoadingTest(unittest.TestCase):
     def test_the_same_class_twice_stops_the_start(self):
         self.assert_stops(component([LANE_FOLLOW, LANE_FOLLOW]), LANE_FOLLOW, "twice")
 
+    def test_two_processors_of_one_service_name_stop_the_start_with_its_parameter(self):
+        others = {"lane_follow_command_processor": {"input_command_name": "external_command/action"}}
+        self.assert_stops(component([ACTION, LANE_FOLLOW], others), LANE_FOLLOW, NAMESPACE + "/external_command/action",
+                          NAMESPACE + "/lane_follow_command_processor/input_command_name")
+
+    def test_two_services_of_the_component_with_one_name_stop_the_start(self):
+        self.assert_stops(component([ACTION], current_command_service_name="external_command/command_status"),
+                          NAMESPACE + "/external_command/command_status", "loaded twice, or", "_name")
+
     def test_a_map_is_looked_for_in_the_home_folder(self):
         started = component([LANE_FOLLOW], map_file="~/no_such_map.bin", environment={"HOME": "/home/somebody"})
         self.assert_stops(started, "/home/somebody/no_such_map.bin")

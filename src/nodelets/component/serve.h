@@ -22,8 +22,9 @@ ros::ServiceServer serveOn(Executor* executor, ros::NodeHandle nh, const std::st
   options.callback_queue = executor->queue();
   ros::ServiceServer server = nh.advertiseService(options);
   if (server) return server;
-  throw InternalError(
-      text("service ", nh.resolveName(name), " is advertised by this process already; is the component loaded twice?"));
+  throw InternalError(text("service ", nh.resolveName(name), " is advertised by this process already; is the ",
+                           "component loaded twice, or has another service the same name in the parameter ..._name ",
+                           "that sets it?"));
 }
 
 }  // namespace external_command

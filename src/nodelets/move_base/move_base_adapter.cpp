@@ -95,8 +95,9 @@ void MoveBaseAdapter::open() {
   service.callback_queue = plans_.queue();
   make_plan_ = getNodeHandle().advertiseService(service);
   if (!make_plan_) {
-    throw InternalError(
-        text("service ", service.service, " is advertised by this process already; is ", getName(), " loaded twice?"));
+    throw InternalError(text("service ", service.service, " is advertised by this process already; is ", getName(),
+                             " loaded twice, or has another one the same action_name? That of this one is set by ",
+                             parameters().nameOf("action_name")));
   }
   front_->open();
 }
