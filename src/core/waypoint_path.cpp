@@ -66,8 +66,10 @@ DistinctLine distinct(const WaypointLine& given) {
   DistinctLine result;
   WaypointLine& line = result.line;
   line.end_heading = given.end_heading;
+  line.names = given.names;
   if (!given.headings.empty() && given.headings.size() != given.points.size()) {
-    throw InvalidRequest(text("heading has ", given.headings.size(), " elements; way_point has ", given.points.size()));
+    throw InvalidRequest(text(given.names.heading, " has ", given.headings.size(), " elements; ", given.names.point,
+                              " has ", given.points.size()));
   }
   for (const WaypointPlace& place : placesOf(given.points)) {
     line.points.push_back(given.points[place.first]);
@@ -184,7 +186,7 @@ class PathSampler {
 
 void requirePoints(const DistinctLine& given, std::size_t count_given, double spacing, const PathBounds& bounds) {
   const std::vector<Point2d>& points = given.line.points;
-  const auto name = [&](std::size_t i) { return text("way_point[", given.number[i], "]"); };
+  const auto name = [&](std::size_t i) { return text(given.line.names.point, "[", given.number[i], "]"); };
   double length = 0.0, count = 1.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite()) throw InvalidRequest(name(i) + " is not finite");
@@ -194,7 +196,8 @@ void requirePoints(const DistinctLine& given, std::size_t count_given, double sp
   }
   bounds.require(length, count);
   if (points.size() >= 2) return;
-  throw InvalidRequest(text("way_point has ", count_given, " points", count_given > 1 ? ", all in one place" : "",
+  throw InvalidRequest(text(given.line.names.point, " has ", count_given, " points",
+                            count_given > 1 ? ", all in one place" : "",
                             "; at least 2 in different places are needed"));
 }
 
@@ -208,9 +211,10 @@ Direction gearAfter(const DistinctLine& given, std::size_t i) {
   if (error <= kMaxHeadingError) return Direction::kForward;
   if (M_PI - error <= kMaxHeadingError) return Direction::kReverse;
   const std::size_t from = given.number[i], to = given.number[i + 1];
-  throw InvalidRequest(text("heading[", from, "] ", radians(line.headings[i]), " and heading[", to, "] ",
-                            radians(line.headings[i + 1]), " lie across the way from way_point[", from, "] ",
-                            at(line.points[i]), " to way_point[", to, "] ", at(line.points[i + 1]),
+  const auto& [point, heading] = line.names;
+  throw InvalidRequest(text(heading, "[", from, "] ", radians(line.headings[i]), " and ", heading, "[", to, "] ",
+                            radians(line.headings[i + 1]), " lie across the way from ", point, "[", from, "] ",
+                            at(line.points[i]), " to ", point, "[", to, "] ", at(line.points[i + 1]),
                             ", whose direction is ", radians(along),
                             "; give headings along it, or against it to reverse"));
 }
@@ -221,7 +225,9 @@ std::vector<Direction> gearsOf(const DistinctLine& given) {
   std::vector<Direction> gears(line.points.size() - 1, Direction::kForward);
   if (line.headings.empty()) return gears;
   for (std::size_t i = 0; i < line.headings.size(); ++i) {
-    if (!std::isfinite(line.headings[i])) throw InvalidRequest(text("heading[", given.number[i], "] is not finite"));
+    if (!std::isfinite(line.headings[i])) {
+      throw InvalidRequest(text(line.names.heading, "[", given.number[i], "] is not finite"));
+    }
   }
   for (std::size_t i = 0; i < gears.size(); ++i) gears[i] = gearAfter(given, i);
   return gears;

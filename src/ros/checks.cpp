@@ -11,6 +11,8 @@ namespace external_command {
 
 namespace {
 
+bool isCoordinate(double value) { return std::abs(value) <= RequestLimits::kCoordinate; }  // false for NaN
+
 void requireCoordinate(double value, const std::string& field) {
   requireFinite(value, field);
   requireWithin(value, -RequestLimits::kCoordinate, RequestLimits::kCoordinate, field);
@@ -58,6 +60,12 @@ void requireFinite(const geometry_msgs::Point& point, const std::string& field) 
   requireCoordinate(point.y, field + ".y");
 }
 
+void requirePlace(const geometry_msgs::Point& point, const std::string& list, std::size_t index,
+                  const std::string& field) {
+  if (isCoordinate(point.x) && isCoordinate(point.y)) return;  // names take longer to make than points to check
+  requireFinite(point, text(list, "[", index, "]", field));
+}
+
 void requireFresh(const ros::Time& stamp, double max_age) {
   if (stamp.isZero()) return;
   const double age = ros::Time::now().toSec() - stamp.toSec();  // a ros::Duration holds 68 years only
@@ -93,7 +101,7 @@ void checkPoints(const std::vector<geometry_msgs::Point>& points, std::size_t lo
   if (points.size() < low) {
     throw InvalidRequest(text(field, " has ", points.size(), " elements; it must have ", low, " at least"));
   }
-  for (std::size_t i = 0; i < points.size(); ++i) requireFinite(points[i], text(field, "[", i, "]"));
+  for (std::size_t i = 0; i < points.size(); ++i) requirePlace(points[i], field, i, "");
 }
 
 void checkPolygon(const RoiPolygon& polygon, const std::string& field, const RequestLimits& limits) {

@@ -211,6 +211,16 @@ TEST(WaypointPath, TakesTheLastHeadingOfARepeatedPoint) {
   EXPECT_NE(lineRefusal({points, {0.0, 1.5, 0.0, 1.5}}).find("heading[0]"), std::string::npos);
 }
 
+TEST(WaypointPath, RefusesByTheNamesThatTheLineHas) {
+  const double nan = std::nan("");
+  const WaypointNames names{"poses", "the heading of poses"};
+  EXPECT_EQ(lineRefusal({{{1.0, 2.0}, {nan, 0.0}}, {}, {}, names}), "poses[1] is not finite");
+  EXPECT_NE(lineRefusal({{{1.0, 2.0}}, {}, {}, names}).find("poses has 1 points"), std::string::npos);
+  const std::string across = lineRefusal({{{0.0, 0.0}, {5.0, 0.0}}, {1.5, 1.5}, {}, names});
+  EXPECT_NE(across.find("the heading of poses[0] 1.50 rad"), std::string::npos) << across;
+  EXPECT_NE(across.find("from poses[0] (0.00, 0.00) to poses[1]"), std::string::npos) << across;
+}
+
 TEST(WaypointPath, NumbersPointsAsTheyWereGiven) {
   const WaypointLine line{{{0.0, 0.0}, {0.0, 0.0}, {30.0, 0.0}, {30.0, 30.0}}};
   ASSERT_EQ(through(line).tight_bends.size(), 1u);

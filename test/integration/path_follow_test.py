@@ -214,7 +214,7 @@ class PathFollowTest(unittest.TestCase):
         self.assert_driven_forward(entry, (100.0, 200.0), (100.0, 220.0))
         unknown = self.publish_path(STRAIGHT, frames=("", "nowhere")).reply
         self.assertEqual(unknown.error_code, CommandStatus.INVALID_REQUEST, support.describe(unknown))
-        self.assertIn("poses[1]", unknown.message)
+        self.assertIn("poses[1].header.frame_id 'nowhere'", unknown.message)
 
     def test_drops_repeated_points_with_their_borders_and_headings(self):
         way = [STRAIGHT[0], STRAIGHT[0], STRAIGHT[1], STRAIGHT[2], STRAIGHT[2]]
@@ -244,7 +244,21 @@ class PathFollowTest(unittest.TestCase):
         self.assertEqual(entry.reply.error_code, CommandStatus.INVALID_REQUEST, support.describe(entry.reply))
         statuses.wait_for(lambda m: m.command_id == entry.reply.command_id and m.status == CommandStatus.ERROR,
                           "the refusal on the topic of statuses")
-        self.assertEqual(self.publish_path(STRAIGHT, frame="nowhere").reply.error_code, CommandStatus.INVALID_REQUEST)
+        self.assertIn("poses has 1 elements", entry.reply.message)
+
+    def test_names_the_fields_of_the_message_in_what_it_refuses_of_it(self):
+        across = dict(orientation=(math.sqrt(0.5), math.sqrt(0.5)))
+        for way, fields, words in (
+                (STRAIGHT, dict(frame="nowhere"), "header.frame_id 'nowhere'"),
+                (STRAIGHT, dict(frames=("nowhere",) * 3), "poses[0].header.frame_id 'nowhere'"),
+                (points((0.0, 0.0), (math.nan, 0.0)), {}, "poses[1].pose.position.x is nan"),
+                (points((1.0, 1.0), (1.0, 1.0)), {}, "poses has 2 points, all in one place"),
+                (STRAIGHT, across, "the heading of poses[0] 1.57 rad")):
+            with self.subTest(words):
+                reply = self.publish_path(way, **fields).reply
+                self.assertEqual(reply.error_code, CommandStatus.INVALID_REQUEST, support.describe(reply))
+                self.assertIn(words, reply.message)
+                self.assertNotIn("way_point", reply.message)
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "external_command/core/cancel_token.h"
@@ -10,12 +11,19 @@
 
 namespace external_command {
 
+/// What refusals call the points of a line.
+struct WaypointNames {
+  std::string point = "way_point";  ///< for `way_point[i]`
+  std::string heading = "heading";  ///< for `heading[i]`
+};
+
 /// Points that a path passes through, in order. One that lies within 1 mm of the one before repeats it: both are one
 /// place, and the heading given last is its.
 struct WaypointLine {
   std::vector<Point2d> points;                       ///< [m], at least two places
   std::vector<double> headings = {};                 ///< of the vehicle, one per point [rad]; empty: driven forward
   std::optional<double> end_heading = std::nullopt;  ///< wished for at the last point, where `headings` is empty [rad]
+  WaypointNames names = {};
 };
 
 /// The points `first` to `last` of a list, which are one place.
@@ -42,7 +50,7 @@ struct WaypointPath {
 };
 
 /// @throws InvalidRequest  fewer than two places; a point that is not finite; a heading across the line (the text
-///                         names it as `way_point[i]`, `heading[i]`); a path beyond `bounds`.
+///                         names it by `line.names`); a path beyond `bounds`.
 void checkWaypoints(const WaypointLine& line, double spacing, const PathBounds& bounds = {});
 
 /// Path of the rear-axle centre through every point of `line`, at most `spacing` [m] between two of its points.

@@ -26,6 +26,10 @@ void requireSize(std::size_t size, std::size_t low, std::size_t high, const std:
 void requireFinite(const Pose& pose, const std::string& field);                   ///< and within kCoordinate
 void requireFinite(const geometry_msgs::Point& point, const std::string& field);  ///< the same; z is not looked at
 
+/// The same for one of many points, `list[index]field`.
+void requirePlace(const geometry_msgs::Point& point, const std::string& list, std::size_t index,
+                  const std::string& field);
+
 /// For commands that mean little later. A stamp that is not set passes.
 /// @throws StaleRequest  the stamp differs from now by more than `max_age` [s], to either side.
 void requireFresh(const ros::Time& stamp, double max_age);

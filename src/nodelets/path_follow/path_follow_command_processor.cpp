@@ -19,8 +19,9 @@ namespace {
 constexpr std::size_t kMaxBendWarnings = 20;
 constexpr double kSameEndHeading = 0.05;  // [rad]
 
-WaypointLine toLine(const PathFollowCommand& command, const Pose2d& frame) {
+WaypointLine toLine(const PathFollowCommand& command, const Pose2d& frame, const WaypointNames& names = {}) {
   WaypointLine line;
+  line.names = names;
   line.points = toMapPoints(command.way_point, frame);
   for (const double heading : command.heading) line.headings.push_back(heading + frame.heading);
   if (command.has_end_heading) line.end_heading = command.end_heading + frame.heading;
@@ -155,6 +156,7 @@ void PathFollowCommandProcessor::takePath(const ros::MessageEvent<nav_msgs::Path
   command.header = path.header;
   try {
     command = toPathFollowCommand(path, [this](const std::string& f) { return context().vehiclePose().ofFrame(f); });
+    checkLine(command, {"poses", "the heading of poses"});
   } catch (const Error&) {
     CommandLogEntry entry;
     entry.header.stamp = ros::Time::now();
@@ -168,11 +170,16 @@ void PathFollowCommandProcessor::takePath(const ros::MessageEvent<nav_msgs::Path
 }
 
 void PathFollowCommandProcessor::check(const PathFollowCommand& command) const {
-  checkPoints(command.way_point, 2, "way_point");
+  checkLine(command, {});
   checkBorders(command);
   requireTargetSpeed(command.target_speed);
+}
+
+void PathFollowCommandProcessor::checkLine(const PathFollowCommand& command, const WaypointNames& names) const {
+  checkPoints(command.way_point, 2, names.point);
+  const ContextParams& params = context().params();
   const Pose2d frame = context().vehiclePose().ofFrame(command.header.frame_id);
-  checkWaypoints(toLine(command, frame), context().params().reference_path.spacing, context().params().path_bounds);
+  checkWaypoints(toLine(command, frame, names), params.reference_path.spacing, params.path_bounds);
 }
 
 /// Where the vehicle is need not be known to follow a path.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "external_command/PathFollow.h"
+#include "external_command/core/waypoint_path.h"
 #include "external_command/ros/motion_command_processor.h"
 #include "nodelets/distance_limits.h"
 
@@ -26,6 +27,9 @@ class PathFollowCommandProcessor : public MotionCommandProcessor<PathFollow> {
   void processSpecialCommand(const PathFollowCommand& command, const CancelToken& cancel, MotionPlan* plan) override;
 
   void takePath(const ros::MessageEvent<nav_msgs::Path const>& event);
+  /// @param names  of the fields that whoever sent it has filled in. @throws InvalidRequest
+  void checkLine(const PathFollowCommand& command, const WaypointNames& names) const;
+
   void checkStart(const Point2d& start, std::vector<std::string>* warnings) const;
 
   DistanceLimits start_limits_{5.0, 0.0};

@@ -7,6 +7,7 @@
 
 #include "external_command/core/error.h"
 #include "external_command/core/text.h"
+#include "external_command/ros/checks.h"
 #include "external_command/ros/conversions.h"
 #include "external_command/ros/frame_id.h"
 
@@ -48,18 +49,23 @@ class Frames {
 
   /// The frame of a pose, seen from the command's.
   Pose2d of(const geometry_msgs::PoseStamped& stamped, std::size_t index) {
-    if (are_one_) return {};
+    if (are_one_ && index > 0) return {};
     const std::string frame = frameOf(stamped);
-    const auto known = known_.find(frame);
-    if (known != known_.end()) return known->second;
-    try {
-      return known_.emplace(frame, pose_of_(frame)).first->second;
-    } catch (const InvalidRequest& error) {
-      throw InvalidRequest(text("poses[", index, "]: ", error.what()));
-    }
+    auto known = known_.find(frame);
+    if (known == known_.end()) known = known_.emplace(frame, lookUp(stamped, index)).first;
+    return are_one_ ? Pose2d() : known->second;
   }
 
  private:
+  Pose2d lookUp(const geometry_msgs::PoseStamped& stamped, std::size_t index) const {
+    try {
+      return pose_of_(frameOf(stamped));
+    } catch (const InvalidRequest& error) {
+      if (frameId(stamped.header.frame_id).empty()) throw;
+      throw InvalidRequest(text("poses[", index, "].", error.what()));
+    }
+  }
+
   std::string frameOf(const geometry_msgs::PoseStamped& stamped) const {
     const std::string own = frameId(stamped.header.frame_id);
     return own.empty() ? frameId(path_.header.frame_id) : own;
@@ -88,6 +94,7 @@ PathFollowCommand toPathFollowCommand(const nav_msgs::Path& path, const FrameLoo
   for (std::size_t i = 0; i < path.poses.size(); ++i) {
     const geometry_msgs::Pose& pose = path.poses[i].pose;
     const Pose2d frame = frames.of(path.poses[i], i);
+    requirePlace(pose.position, "poses", i, ".pose.position");
     command.way_point.push_back(toPointMsg(toMapPoint(pose.position, frame)));
     if (has_headings) command.heading.push_back(headingOf(pose.orientation, i) + frame.heading);
     if (has_headings || i + 1 < path.poses.size() || isUnset(pose.orientation)) continue;

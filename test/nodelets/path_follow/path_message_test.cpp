@@ -34,6 +34,7 @@ PathFollowCommand commandOf(const nav_msgs::Path& path) {
   return toPathFollowCommand(path, [](const std::string& frame) -> Pose2d {
     if (frame == "yard") return {100.0, 200.0, M_PI / 2.0};
     if (frame == "odom") return {10.0, 0.0, 0.0};
+    if (frame == "map") return {};
     throw InvalidRequest("header.frame_id '" + frame + "' is not known");
   });
 }
@@ -134,8 +135,23 @@ TEST(PathMessage, RefusesWhatHasNoDirectionAndFramesThatAreNotKnown) {
       << messageRefusal(path);
   path.poses[2].header.frame_id = "nowhere";
   turn(&path, 1, 0.3);
-  EXPECT_NE(messageRefusal(path).find("poses[2]: header.frame_id 'nowhere'"), std::string::npos)
-      << messageRefusal(path);
+  EXPECT_NE(messageRefusal(path).find("poses[2].header.frame_id 'nowhere'"), std::string::npos) << messageRefusal(path);
+}
+
+TEST(PathMessage, NamesTheFieldThatHasTheUnknownFrame) {
+  nav_msgs::Path path = pathOf({{0.0, 0.0}, {5.0, 0.0}});
+  path.header.frame_id = "nowhere";
+  EXPECT_EQ(messageRefusal(path), "header.frame_id 'nowhere' is not known");
+  for (geometry_msgs::PoseStamped& stamped : path.poses) stamped.header.frame_id = "elsewhere";
+  EXPECT_EQ(messageRefusal(path), "poses[0].header.frame_id 'elsewhere' is not known");
+}
+
+TEST(PathMessage, RefusesPositionsThatAreNone) {
+  EXPECT_EQ(messageRefusal(pathOf({{0.0, 0.0}, {1e6, -1e6}})), "");
+  EXPECT_EQ(messageRefusal(pathOf({{0.0, 0.0}, {5.0, std::nan("")}})),
+            "poses[1].pose.position.y is nan; it must be finite");
+  EXPECT_NE(messageRefusal(pathOf({{0.0, 0.0}, {1e300, 0.0}})).find("poses[1].pose.position.x is 1e+300"),
+            std::string::npos);
 }
 
 TEST(PathMessage, LeavesTheRefusalOfShortPathsToTheCheck) {
