@@ -46,6 +46,10 @@ struct Warning {
   std::string text;
 };
 
+std::string budgetWords(double budget) {
+  return budget < 0.1 ? text(std::lround(1e3 * budget), " ms") : seconds(budget);
+}
+
 /// The goals are numbered only where there are several.
 std::string nameOf(std::size_t goal, const std::vector<Pose2d>& goals) {
   return goals.size() > 1 ? text("goal ", goal) : "the goal";
@@ -100,8 +104,8 @@ class Planning {
   void throwIfStopped() const {
     stop_.cancel().throwIfCancelled();
     if (!stop_.isReached()) return;
-    throw PlanningTimeout(text("the obstacles are so many that ", seconds(params_.time_budget),
-                               " (time_budget) did not suffice to take them in; give a smaller region, or more time"));
+    throw PlanningTimeout(text("not all obstacles were taken in within ", budgetWords(params_.time_budget),
+                               " (time_budget); give more time, or a smaller region"));
   }
 
   std::string described(const std::string& what, const Pose2d& pose, const Collision& collision) const {
@@ -203,7 +207,7 @@ class Planning {
       if (left.empty()) throw NoPath(whyNone(whyHopeless(no_way)));
       open = std::move(left);
       if (stop_.isReached()) {
-        throw PlanningTimeout(whyNone(text("none was found within ", seconds(params_.time_budget),
+        throw PlanningTimeout(whyNone(text("none was found within ", budgetWords(params_.time_budget),
                                            "; give it more time (time_budget), or a smaller margin (margin)")));
       }
       if (steps >= params_.max_iterations) {

@@ -30,6 +30,7 @@ struct ManoeuvrePlanner::PlacedGrid {
 namespace {
 
 constexpr double kLeastBudget = 2e-3;  // that planning can begin with [s]
+constexpr double kWholeBudget = 0.95;  // share of the command's, from which on a part has had it all
 
 OccupancyGrid outlineOf(const nav_msgs::OccupancyGrid& message, const Pose2d& frame, const ObstacleGridParams& params) {
   const auto& origin = message.info.origin;
@@ -58,6 +59,11 @@ void logPlanner(PlannerLogLevel level, const std::string& message) {
 }
 
 }  // namespace
+
+std::string timeoutWords(const std::string& why, double part, double whole, const std::string& parameter) {
+  if (part >= kWholeBudget * whole) return why;
+  return text(why, "; the other parts of the command have the rest of its ", seconds(whole), " (~", parameter, ")");
+}
 
 FreeSpaceParams readFreeSpaceParams(const ParameterReader& reader) {
   FreeSpaceParams params;
@@ -186,6 +192,9 @@ FreeSpacePlan ManoeuvrePlanner::plan(const Pose2d& start, const std::vector<Pose
   }
   try {
     return FreeSpacePlanner(context_.params().vehicle, params).plan(start, goals, region, cancel, ends, checked);
+  } catch (const PlanningTimeout& error) {
+    throw PlanningTimeout(
+        timeoutWords(error.what(), params.time_budget, params_.time_budget, "free_space/time_budget"));
   } catch (const StartBlocked&) {
     showConflicts({start}, region, scene, cancel);
     throw;

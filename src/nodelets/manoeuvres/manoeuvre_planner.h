@@ -90,6 +90,13 @@ class ManoeuvrePlanner {
   const std::shared_ptr<PlannerLog> planner_log_;
 };
 
+/// What to tell where a part of a command has run out of the time that it was given.
+/// @param why        as the part tells it.
+/// @param part       what it was given [s]
+/// @param whole      the budget of the command [s]
+/// @param parameter  that sets it, below the processor.
+std::string timeoutWords(const std::string& why, double part, double whole, const std::string& parameter);
+
 /// @throws InvalidParameter
 FreeSpaceParams readFreeSpaceParams(const ParameterReader& reader);
 RegionLimits readRegionLimits(const ParameterReader& reader);

@@ -256,7 +256,12 @@ void ZoneCoverCommandProcessor::processSpecialCommand(const ZoneCoverCommand& co
   const CoveragePlanner planner(context().params().vehicle, timed);
   std::vector<Swath> on_the_way;
   if (command.resume && beginsAtVehicle(command) && plan->path.empty()) on_the_way = sweptUntil(plan->start, file);
-  CoverageResult coverage = planner.plan(zone, start, afterwards(progress, on_the_way), cancel, plan->take_over);
+  CoverageResult coverage;
+  try {
+    coverage = planner.plan(zone, start, afterwards(progress, on_the_way), cancel, plan->take_over);
+  } catch (const PlanningTimeout& error) {
+    throw PlanningTimeout(timeoutWords(error.what(), timed.time_budget, params.time_budget, "coverage/time_budget"));
+  }
   const std::size_t offset = plan->path.empty() ? 0 : plan->path.size() - 1;  // join() shares the point between both
   appendCoverage(coverage, plan);
   plan->scene.start = plan->path.front().pose();
