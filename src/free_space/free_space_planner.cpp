@@ -232,10 +232,11 @@ class Planning {
     }
     if (!no_way) return kNone;
     if (no_way->turn) return described(*no_way->turn);
-    const auto passage = narrowestPassage(index_, area, query.start.position(), query.goal.position(), stop);
+    const auto passage = narrowestPassage(index_, area, query.start, query.goal, stop);
     if (!passage) return "obstacles close every way, or leave less room than the vehicle needs";
     return text("the widest way is only ", metres(passage->width), " wide at ", at(Point2d(passage->at + origin_)),
-                "; the vehicle needs ", metres(vehicle_.width + 2.0 * params_.margin), ", twice the margin included");
+                "; the vehicle needs ", metres(vehicle_.width + passage->margins),
+                ", the margins to both sides included");
   }
 
   std::string described(const TightTurn& turn) const {

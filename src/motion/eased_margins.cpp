@@ -29,7 +29,6 @@ void FootprintIndex::easeMargin(std::size_t number, const Pose2d& pose) {
     if (distance < nearest.distance) nearest = eased;
   }
   eased_.push_back(nearest);
-  least_margin_ = std::min(least_margin_, nearest.margin);
 }
 
 /// The part of the edge that lies around `centre` gets the smaller margin; what is left of it stays as it was.

@@ -41,7 +41,6 @@ FootprintIndex::FootprintIndex(const VehicleParams& vehicle, double margin, cons
     : obstacles_(region, origin, checkpoint),
       box_(vehicle),
       margin_(margin),
-      least_margin_(margin),
       reach_(box_.circumradius() + margin),
       extent_(emptyBox()),
       axle_bounds_{Point2d(-kInfinity, -kInfinity), Point2d(kInfinity, kInfinity)},
@@ -268,9 +267,11 @@ bool FootprintIndex::meetsEdge(const FootprintBox& part, const Frame& frame) con
   return std::any_of(near.begin(), near.end(), [&](std::uint32_t i) {
     const HalfEdge& edge = edges_[i];
     const double dx = edge.mx - x, dy = edge.my - y;
+    // A box grown by so much has its corners within the margin.
+    const double grown = marginTo(i) * M_SQRT1_2;
     return boxMeets(dx * frame.cos + dy * frame.sin, dy * frame.cos - dx * frame.sin,
                     edge.hx * frame.cos + edge.hy * frame.sin, edge.hy * frame.cos - edge.hx * frame.sin,
-                    part.half_length, part.half_width);
+                    part.half_length + grown, part.half_width + grown);
   });
 }
 
@@ -333,56 +334,6 @@ bool FootprintIndex::keepsMargin(const Pose2d& from, const ArcSegment& arc) cons
     s += step;
   }
   return true;
-}
-
-bool FootprintIndex::axleMayBeWithin(double x, double y, double radius) const {
-  if (x < axle_bounds_.min.x() - radius || x > axle_bounds_.max.x() + radius) return false;
-  if (y < axle_bounds_.min.y() - radius || y > axle_bounds_.max.y() + radius) return false;
-  const long cell = cellAt(x, y);
-  if (cell < 0) return outside_is_free_;
-  const auto at = static_cast<std::size_t>(cell);
-  const double slack = radius + (cellCentre(cell % columns_, cell / columns_) - Point2d(x, y)).norm();
-  return states_[at] == State::kFree ? near_[at] + slack >= axleDisc() : near_[at] <= slack;
-}
-
-double FootprintIndex::axleRoom(const Point2d& point, double limit) const {
-  const long cell = cellAt(point.x(), point.y());
-  if (cell < 0) return outside_is_free_ ? limit : 0.0;
-  const auto at = static_cast<std::size_t>(cell);
-  const double near = static_cast<double>(near_[at]);
-  if (near > cell_reach_ && states_[at] == State::kFilled) return cell_reach_ - near;
-  if (near - cell_reach_ >= limit) return limit;
-  double room = limit;
-  for (const std::uint32_t i : edgesNear(cell)) {
-    const ObstacleEdge& edge = obstacles_.edges()[i];
-    room = std::min(room, (nearestOnSegment(point, edge.begin, edge.end) - point).norm());
-  }
-  return room;
-}
-
-double FootprintIndex::roomAt(const Point2d& point) const {
-  const long cell = cellAt(point.x(), point.y());
-  if (cell < 0) return outside_is_free_ ? kInfinity : 0.0;
-  const auto at = static_cast<std::size_t>(cell);
-  return states_[at] == State::kFree ? static_cast<double>(near_[at]) : 0.0;
-}
-
-double FootprintIndex::roomBetweenCells(const Point2d& point) const {
-  const Point2d low = cellCentre(0, 0);
-  const Point2d at = (point - low) / cell_size_;
-  const double column = std::floor(at.x()), row = std::floor(at.y());
-  if (!(column >= 0.0 && row >= 0.0 && column + 1.0 < static_cast<double>(columns_) &&
-        row + 1.0 < static_cast<double>(rows_))) {
-    return roomAt(point);
-  }
-  const auto here = static_cast<std::size_t>(static_cast<long>(row) * columns_ + static_cast<long>(column));
-  const auto room = [this](std::size_t cell) {
-    return states_[cell] == State::kFree ? static_cast<double>(near_[cell]) : 0.0;
-  };
-  const double x = at.x() - column, y = at.y() - row;
-  const auto above = here + static_cast<std::size_t>(columns_);
-  return (1.0 - y) * ((1.0 - x) * room(here) + x * room(here + 1)) +
-         y * ((1.0 - x) * room(above) + x * room(above + 1));
 }
 
 Point2d FootprintIndex::snapped(const Point2d& point) const {

@@ -127,23 +127,28 @@ class FootprintIndex {
   /// False only where no free footprint has its rear-axle centre within `radius` [m] of the point.
   bool axleMayBeWithin(double x, double y, double radius) const;
 
-  /// Whether an edge meets a part of the footprint, margin included, of a vehicle at `frame`.
+  /// Whether an edge comes nearer than its margin to a part of the footprint of a vehicle at `frame`. Beside a corner
+  /// of the part it may come somewhat nearer before it counts.
   bool meetsEdge(const FootprintBox& part, const Frame& frame) const;
 
-  /// That every free footprint keeps, to any obstacle [m].
-  double leastMargin() const { return least_margin_; }
-
   /// Radius of the disc around the rear axle's middle that every free footprint contains, with the margin [m].
-  double axleDisc() const {
-    return std::min(box_.half_width, box_.half_length - std::abs(box_.centre)) + least_margin_;
+  double axleDisc() const { return std::min(box_.half_width, box_.half_length - std::abs(box_.centre)) + margin_; }
+
+  /// Radius of the largest discs that fit into every free footprint, with the margin [m]; and how far ahead of the rear
+  /// axle the middle of that one is which is nearest to it [m].
+  double bodyDisc() const { return std::min(box_.half_width, box_.half_length) + margin_; }
+  double bodyDiscAhead() const {
+    const double reach = std::max(box_.half_length - box_.half_width, 0.0);
+    return std::clamp(0.0, box_.centre - reach, box_.centre + reach);
   }
 
-  /// Radius of the largest discs that fit into every free footprint, with the margin [m].
-  double bodyDisc() const { return std::min(box_.half_width, box_.half_length) + least_margin_; }
-
-  /// Distance from the point to the nearest edge, at most `limit`, which must not exceed bodyDisc(). Deep inside an
-  /// obstacle it is negative, at most that depth [m].
+  /// Distance from the point to the nearest edge, at most `limit`, which must not exceed bodyDisc(). An edge whose
+  /// margin is smaller counts as so much farther away: a disc with the margin all around fits where the room is no less
+  /// than its radius. Deep inside an obstacle it is negative, at most that depth [m].
   double axleRoom(const Point2d& point, double limit) const;
+
+  /// To an edge [m].
+  double marginTo(std::size_t edge) const { return margins_.empty() ? margin_ : margins_[edge]; }
 
   /// At most the distance from the middle of the point's cell to the nearest obstacle; 0 in one [m].
   double roomAt(const Point2d& point) const;
@@ -190,7 +195,8 @@ class FootprintIndex {
     return {listed_.data() + starts_[at], listed_.data() + starts_[at + 1]};
   }
 
-  double marginTo(std::size_t edge) const { return margins_.empty() ? margin_ : margins_[edge]; }
+  double easedBy(std::size_t edge) const { return margin_ - marginTo(edge); }
+  double roomWithin(long cell, const Point2d& point, double limit) const;
   void easeMargin(std::size_t number, const Pose2d& pose);
   void easeEdge(std::size_t edge, const Point2d& centre, const EasedMargin& eased);
   void makeBlocks();
@@ -210,7 +216,6 @@ class FootprintIndex {
   LocalObstacles obstacles_;
   FootprintBox box_;
   double margin_;
-  double least_margin_;
   std::vector<EasedMargin> eased_;
   std::vector<double> margins_;  ///< to each edge [m]; empty: the same to all
   double reach_;                 ///< edges farther from the footprint's centre cannot break the margin [m]

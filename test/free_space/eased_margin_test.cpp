@@ -53,6 +53,29 @@ TEST(EasedMargin, RefusesOnlyWhatTheBareFootprintMeets) {
   EXPECT_THROW(planned(world, defaultMargin()), StartBlocked);
 }
 
+/// Two walls, `gap` [m] wider apart than the vehicle.
+ParkingWorld corridor(double gap) {
+  ParkingWorld world{smallCar(), {0, 0, 0}, {25, 0, 0}, Region()};
+  const double beside = 0.5 * (world.vehicle.width + gap) + 0.5;
+  Region::Parts parts;
+  for (const double y : {beside, -beside}) parts.non_drivable.push_back(box({12.0, y}, 80.0, 1.0));
+  world.region = Region(std::move(parts));
+  return world;
+}
+
+TEST(EasedMargin, LeavesACorridorThatIsTooNarrowAllAlongToBeNamed) {
+  const double margin = defaultMargin().margin;
+  try {
+    planned(corridor(2.0 * margin - 0.04), defaultMargin());
+    FAIL() << "a path was found";
+  } catch (const NoPath& error) {
+    const std::string refusal = error.what();
+    EXPECT_NE(refusal.find("the widest way is only"), std::string::npos) << refusal;
+    EXPECT_NE(refusal.find("the margins to both sides included"), std::string::npos) << refusal;
+  }
+  EXPECT_NO_THROW(planned(corridor(2.0 * margin + 0.04), defaultMargin()));
+}
+
 TEST(EasedMargin, HoldsForTheNearObstacleAndNoOther) {
   Region::Parts parts;
   const VehicleParams vehicle = smallCar();

@@ -21,14 +21,24 @@ constexpr double kTolerance = 2e-3;         ///< to which the widest point of a 
 constexpr double kSlack = 1e-6;             ///< of a width, for rounding [m]
 constexpr std::size_t kCellsPerLook = 256;  ///< at the clock
 
-/// A grid of square cells. The axle gets from cell to cell through their common side, somewhere on which a disc around
-/// it must be free; within a cell nothing is asked.
+BoundingBox grown(const BoundingBox& box, double by) {
+  return {box.min - Point2d::Constant(by), box.max + Point2d::Constant(by)};
+}
+
+/// A grid of square cells. The disc's middle gets from cell to cell through their common side, somewhere on which the
+/// disc must be free; within a cell nothing is asked.
 class PassageGrid {
  public:
   PassageGrid(const FootprintIndex& index, const BoundingBox& area)
-      : index_(index), radius_(index.axleDisc()), cells_(area.min, area.max, kCellSize, kMaxCells) {}
+      : index_(index),
+        radius_(index.bodyDisc()),
+        ahead_(index.bodyDiscAhead()),
+        bounds_(grown(index.axleBounds(), std::abs(ahead_))),
+        cells_(area.min - Point2d::Constant(std::abs(ahead_)), area.max + Point2d::Constant(std::abs(ahead_)),
+               kCellSize, kMaxCells) {}
 
-  long cellAt(const Point2d& point) const { return cells_.at(point); }
+  /// Of the disc's middle.
+  long cellAt(const Pose2d& pose) const { return cells_.at(pose.position() + ahead_ * unitVector(pose.heading)); }
 
   /// True, too, once `stop` says so.
   bool connects(long from, long to, const std::function<bool()>& stop) const {
@@ -89,7 +99,9 @@ class PassageGrid {
   }
 
  private:
-  bool isInBounds(const Point2d& point) const { return index_.isWithinAxleBounds(point.x(), point.y()); }
+  bool isInBounds(const Point2d& point) const {
+    return (point.array() >= bounds_.min.array()).all() && (point.array() <= bounds_.max.array()).all();
+  }
 
   /// Whether the disc is free somewhere on the side. Room changes by no more than the distance moved, so a middle
   /// without enough of it tells about a stretch to either side.
@@ -130,45 +142,52 @@ class PassageGrid {
 
   const FootprintIndex& index_;
   double radius_;
+  double ahead_;        ///< of the rear axle, where the disc's middle is [m]
+  BoundingBox bounds_;  ///< of that
   CellGrid cells_;
 };
 
-/// The shortest line from obstacle to obstacle across `place`.
+/// The line across `place` that leaves least beyond the margins at its ends.
 NarrowPassage measured(const FootprintIndex& index, const Point2d& place) {
+  struct End {
+    Point2d at;
+    double margin;
+  };
   const std::vector<ObstacleEdge>& edges = index.obstacles().edges();
   const auto nearest = [&](const std::function<bool(const Point2d&)>& counts) {
-    Point2d best = place;
-    double best_distance = std::numeric_limits<double>::infinity();
-    for (const ObstacleEdge& edge : edges) {
-      const Point2d point = nearestOnSegment(place, edge.begin, edge.end);
-      const double distance = (point - place).norm();
-      if (distance < best_distance && counts(point)) best = point, best_distance = distance;
+    End best{place, index.margin()};
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const Point2d point = nearestOnSegment(place, edges[i].begin, edges[i].end);
+      const double room = (point - place).norm() - index.marginTo(i);
+      if (room < least && counts(point)) best = {point, index.marginTo(i)}, least = room;
     }
     return best;
   };
-  Point2d one = nearest([](const Point2d&) { return true; });
-  const Point2d towards = one - place;
-  Point2d other = nearest([&](const Point2d& point) { return (point - place).dot(towards) < 0.0; });
-  return {(one - other).norm(), 0.5 * (one + other)};
+  const End one = nearest([](const Point2d&) { return true; });
+  const Point2d towards = one.at - place;
+  const End other = nearest([&](const Point2d& point) { return (point - place).dot(towards) < 0.0; });
+  return {(one.at - other.at).norm(), one.margin + other.margin, 0.5 * (one.at + other.at)};
 }
 
 }  // namespace
 
-bool isTooNarrow(const FootprintIndex& index, const BoundingBox& area, const Point2d& from, const Point2d& to,
+bool isTooNarrow(const FootprintIndex& index, const BoundingBox& area, const Pose2d& from, const Pose2d& to,
                  const std::function<bool()>& stop) {
   const PassageGrid grid(index, area);
   const long first = grid.cellAt(from), last = grid.cellAt(to);
   return first >= 0 && last >= 0 && !grid.connects(first, last, stop);
 }
 
-std::optional<NarrowPassage> narrowestPassage(const FootprintIndex& index, const BoundingBox& area, const Point2d& from,
-                                              const Point2d& to, const std::function<bool()>& stop) {
+std::optional<NarrowPassage> narrowestPassage(const FootprintIndex& index, const BoundingBox& area, const Pose2d& from,
+                                              const Pose2d& to, const std::function<bool()>& stop) {
   const PassageGrid grid(index, area);
   const long first = grid.cellAt(from), last = grid.cellAt(to);
   if (first < 0 || last < 0) return std::nullopt;
   const auto spot = grid.narrowest(first, last, stop);
   if (!spot) return std::nullopt;
-  return measured(index, spot->at);
+  const NarrowPassage passage = measured(index, spot->at);
+  return passage.width > kTolerance ? std::optional(passage) : std::nullopt;
 }
 
 }  // namespace external_command

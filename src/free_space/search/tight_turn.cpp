@@ -50,12 +50,10 @@ std::vector<Disc> discsOf(const FootprintIndex& index) {
   return discs;
 }
 
-/// Boxes that the footprint, with its margin, covers wherever the axle is within `moved` [m] of a place, and the
+/// Boxes that the footprint covers wherever the axle is within `moved` [m] of a place, and the
 /// heading within `turned` [rad]. Those far from the axle are narrower.
 std::vector<FootprintBox> partsOf(const FootprintIndex& index, double moved, double turned) {
   const FootprintBox& box = index.box();
-  // A box grown by so much has its corners within the margin.
-  const double grown = index.leastMargin() * M_SQRT1_2;
   const auto narrowed = [&](double half, double reach_along, double reach_across) {
     return half - moved - turned * reach_across - 0.5 * turned * turned * reach_along;
   };
@@ -67,10 +65,7 @@ std::vector<FootprintBox> partsOf(const FootprintIndex& index, double moved, dou
     part.half_length = half_length / kParts;
     part.centre = box.centre - half_length + (2.0 * i + 1.0) * part.half_length;
     part.half_width = narrowed(box.half_width, box.half_width, std::abs(part.centre) + part.half_length);
-    if (half_length <= 0.0 || part.half_width <= 0.0) continue;
-    part.half_length += grown;
-    part.half_width += grown;
-    parts.push_back(part);
+    if (half_length > 0.0 && part.half_width > 0.0) parts.push_back(part);
   }
   return parts;
 }

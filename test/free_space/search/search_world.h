@@ -9,10 +9,10 @@ namespace external_command {
 
 inline const auto kNeverStop = [] { return false; };
 
-/// A place as the searches see it, without a margin.
+/// A place as the searches see it.
 struct SearchWorld {
-  explicit SearchWorld(const ParkingWorld& world)
-      : index(world.vehicle, 0.0, world.region, {0.0, 0.0}, {world.start, world.goal}, [] {}),
+  explicit SearchWorld(const ParkingWorld& world, double margin = 0.0)
+      : index(world.vehicle, margin, world.region, {0.0, 0.0}, {world.start, world.goal}, [] {}),
         scene{index, world.vehicle.min_turning_radius, {3.0, 1.0, 2.0}},
         query{world.start, world.goal, 0},
         area{world.start.position().cwiseMin(world.goal.position()) - Point2d::Constant(kRoom),

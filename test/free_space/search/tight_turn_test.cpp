@@ -8,6 +8,7 @@
 
 #include "external_command/core/error.h"
 #include "external_command/free_space/free_space_planner.h"
+#include "free_space/search/no_way.h"
 #include "search_world.h"
 
 namespace external_command {
@@ -78,6 +79,53 @@ TEST(TightTurn, IsProvedAtTheTightEndBesideAWideYard) {
 
 TEST(TightTurn, IsNotProvedOnceStopped) {
   EXPECT_FALSE(tightTurnIn(street(4.0), [] { return true; }));
+}
+
+/// Beside the start and 3 cm from it.
+ParkingWorld withAKerbAtTheStart(ParkingWorld world) {
+  const double beside = 0.5 * world.vehicle.width + 0.03 + 0.1;
+  const Pose2d kerb = compose(world.start, {0.0, -beside, 0.0});
+  Region::Parts parts;
+  parts.non_drivable = world.region.nonDrivable();
+  parts.drivable = world.region.drivable();
+  parts.non_drivable.push_back(box(kerb.position(), 2.0, 0.2, kerb.heading));
+  world.region = Region(std::move(parts));
+  return world;
+}
+
+TEST(NoWay, IsProvedWhereOnlyTheMarginAtTheStartIsEased) {
+  const double margin = 0.1;
+  const auto isProved = [&](double gap) {
+    const ParkingWorld place = withAKerbAtTheStart(twoYards(gap));
+    const SearchWorld world(place, margin);
+    EXPECT_EQ(world.index.easedMargins().size(), 1u);
+    return proveNoWay(world.index, world.area, place.start, place.goal, {world.to_start, world.to_goal}, kNeverStop)
+        .has_value();
+  };
+  EXPECT_TRUE(isProved(2.0 * margin - 0.02));
+  EXPECT_FALSE(isProved(2.0 * margin + 0.02));
+}
+
+TEST(NoWay, IsNeverProvedWhereAPathBeginsOrEndsNearerThanTheMargin) {
+  FreeSpaceParams params;
+  params.margin = 0.3;
+  params.planner = "hybrid_astar";
+  params.max_iterations = 4000;
+  int solved = 0;
+  for (const ParkingWorld& place : randomWorlds(7, 80)) {
+    const SearchWorld world(place, params.margin);
+    if (world.index.easedMargins().empty()) continue;
+    try {
+      FreeSpacePlanner(place.vehicle, params).plan(place.start, {place.goal}, place.region, CancelToken());
+    } catch (const Error&) {
+      continue;
+    }
+    ++solved;
+    EXPECT_FALSE(
+        proveNoWay(world.index, world.area, place.start, place.goal, {world.to_start, world.to_goal}, kNeverStop))
+        << "world " << solved;
+  }
+  EXPECT_GT(solved, 10);
 }
 
 TEST(TightTurn, IsNeverProvedWhereThereIsAPath) {
