@@ -15,6 +15,7 @@
 #include "free_space/search/no_way.h"
 #include "motion/collision_probe.h"
 #include "path_finisher.h"
+#include "pull_away.h"
 
 namespace external_command {
 
@@ -53,6 +54,11 @@ std::string budgetWords(double budget) {
 /// The goals are numbered only where there are several.
 std::string nameOf(std::size_t goal, const std::vector<Pose2d>& goals) {
   return goals.size() > 1 ? text("goal ", goal) : "the goal";
+}
+
+/// A short length [m], in millimetres where it is less than a centimetre.
+std::string closely(double length) {
+  return length < 0.01 ? text(std::round(1e4 * length) / 10.0, " mm") : metres(length);
 }
 
 /// One call of plan(): everything in the frame around the start.
@@ -144,9 +150,9 @@ class Planning {
       const Pose2d& pose = is_start ? start : goals[eased.pose - 1];
       warnings_.push_back(
           {eased.pose, text(is_start ? "the start" : nameOf(eased.pose - 1, goals), " ", at(pose), " is ",
-                            metres(eased.distance), " from ", obstacleName(index_.obstacles().region(), eased.source),
+                            closely(eased.distance), " from ", obstacleName(index_.obstacles().region(), eased.source),
                             ", nearer than the margin of ", metres(params_.margin), ": within ", metres(eased.within),
-                            " of it the margin is ", metres(eased.margin))});
+                            " of it the margin is ", closely(eased.margin))});
     }
   }
 
@@ -185,6 +191,13 @@ class Planning {
     return box;
   }
 
+  std::vector<FirstPath> firstPaths(const Query& query, std::size_t steps) const {
+    const FirstPathRequest request{params_.planner, steps, params_.seed};
+    // the search alone is for callers that only want to know whether there is a way
+    if (params_.planner == "portfolio") return findFirstPaths(scene_, query, areaOf(query), request, stop_);
+    return {findFirstPath(scene_, query, areaOf(query), request, stop_)};
+  }
+
   /// The cheapest of the approaches' first paths. With several of them, none may use up the time alone: the own search
   /// tries each with few steps first, then with more. OMPL's planners count none.
   Solution firstSolution() {
@@ -196,12 +209,13 @@ class Planning {
     while (true) {
       std::vector<const Approach*> left;
       for (const Approach* approach : open) {
-        const FirstPath found = findFirstPath(scene_, approach->query, areaOf(approach->query),
-                                              {params_.planner, steps, params_.seed}, stop_);
+        const std::vector<FirstPath> paths = firstPaths(approach->query, steps);
         stop_.cancel().throwIfCancelled();
-        if (found.outcome != TwoWaySearch::Outcome::kNone) left.push_back(approach);
-        if (approach == &approaches_[0]) no_way = found.no_way;
-        if (found.outcome == TwoWaySearch::Outcome::kFound) consider(*approach, found.arcs, &best);
+        if (paths.back().outcome != TwoWaySearch::Outcome::kNone) left.push_back(approach);
+        if (approach == &approaches_[0]) no_way = paths.back().no_way;
+        for (const FirstPath& path : paths) {
+          if (path.outcome == TwoWaySearch::Outcome::kFound) consider(*approach, path.arcs, &best);
+        }
       }
       if (best.approach != nullptr) return best;
       if (left.empty()) throw NoPath(whyNone(whyHopeless(no_way)));
@@ -211,8 +225,8 @@ class Planning {
                                            "; give it more time (time_budget), or a smaller margin (margin)")));
       }
       if (steps >= params_.max_iterations) {
-        throw NoPath(
-            whyNone(text("none was found in at most ", params_.max_iterations, " steps; allow more (max_iterations)")));
+        throw NoPath(whyNone(text("none was found in at most ", params_.max_iterations,
+                                  " steps; allow more (max_iterations)", whatIsNear())));
       }
       steps = std::min<std::size_t>(4 * steps, params_.max_iterations);
     }
@@ -220,9 +234,8 @@ class Planning {
 
   /// What closes the way to the first of the approaches, if one narrow place does.
   std::string whyHopeless(std::optional<NoWay> no_way) const {
-    const char* const kNone = "the finest search found none";
-    // the search alone is for callers that only want to know whether there is a way
-    if (params_.planner != "portfolio") return kNone;
+    const std::string none = "the finest search found none" + whatIsNear();
+    if (params_.planner != "portfolio") return none;
     const Query& query = approaches_[0].query;
     const BoundingBox area = areaOf(query);
     const auto stop = [this] { return stop_.isReached(); };
@@ -230,13 +243,22 @@ class Planning {
       const DistanceMap to_start(index_, area, query.start), to_goal(index_, area, query.goal);
       no_way = proveNoWay(index_, area, query.start, query.goal, {to_start, to_goal}, stop);
     }
-    if (!no_way) return kNone;
+    if (!no_way) return none;
     if (no_way->turn) return described(*no_way->turn);
     const auto passage = narrowestPassage(index_, area, query.start, query.goal, stop);
     if (!passage) return "obstacles close every way, or leave less room than the vehicle needs";
     return text("the widest way is only ", metres(passage->width), " wide at ", at(Point2d(passage->at + origin_)),
                 "; the vehicle needs ", metres(vehicle_.width + passage->margins),
                 ", the margins to both sides included");
+  }
+
+  /// Start and goal as far as obstacles are nearer to them than the margin, and what to do; else empty.
+  std::string whatIsNear() const {
+    std::string near;
+    for (const Warning& warning : warnings_) {
+      if (warning.pose == 0 || warning.pose == approaches_[0].goal_index + 1) near += "; " + warning.text;
+    }
+    return near.empty() ? near : near + "; choose a pose farther away, or a smaller margin (margin)";
   }
 
   std::string described(const TightTurn& turn) const {
