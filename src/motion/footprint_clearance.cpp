@@ -14,14 +14,12 @@ void FootprintIndex::makeBlocks() {
       low = low.cwiseMin(middle - half);
       high = high.cwiseMax(middle + half);
     }
-    const Point2d middle = 0.5 * (low + high), half = 0.5 * (high - low);
-    blocks_.push_back({middle.x(), middle.y(), half.x(), half.y()});
+    blocks_.emplace_back(low, high);
   }
 }
 
 double FootprintIndex::distanceTo(const ObstacleEdge& edge, const Frame& frame) const {
-  const Point2d middle = 0.5 * (edge.begin + edge.end), half = 0.5 * (edge.end - edge.begin);
-  return exactDistance({middle.x(), middle.y(), half.x(), half.y()}, frame, frame.x + box_.centre * frame.cos,
+  return exactDistance({edge.begin, edge.end}, frame, frame.x + box_.centre * frame.cos,
                        frame.y + box_.centre * frame.sin);
 }
 

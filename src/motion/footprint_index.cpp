@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <limits>
-
-#include "external_command/core/error.h"
-#include "external_command/core/text.h"
+#include <optional>
 
 namespace external_command {
 
@@ -14,9 +12,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kCellSize = 0.5;  ///< [m]
 constexpr double kMaxCells = 500'000.0;
-constexpr std::uint32_t kEdgesAtOnce = 4;      ///< between two checkpoints: an edge may lie in all cells
-constexpr long kRowsAtOnce = 16;               ///< between two checkpoints
-constexpr std::size_t kPairsAtOnce = 1 << 18;  ///< between two checkpoints
+constexpr long kRowsAtOnce = 16;    ///< between two checkpoints
 constexpr double kFineStep = 2e-3;  ///< most that a corner moves between two checks where there is no room [m]
 
 BoundingBox emptyBox() { return {Point2d(kInfinity, kInfinity), Point2d(-kInfinity, -kInfinity)}; }
@@ -48,8 +44,7 @@ FootprintIndex::FootprintIndex(const VehicleParams& vehicle, double margin, cons
   if (region.axleBounds()) axle_bounds_ = {region.axleBounds()->min - origin, region.axleBounds()->max - origin};
   for (std::size_t i = 0; i < eased_at.size(); ++i) easeMargin(i, eased_at[i]);
   for (const ObstacleEdge& edge : obstacles_.edges()) {
-    const Point2d middle = 0.5 * (edge.begin + edge.end), half = 0.5 * (edge.end - edge.begin);
-    edges_.push_back({middle.x(), middle.y(), half.x(), half.y()});
+    edges_.emplace_back(edge.begin, edge.end);
   }
   makeBlocks();
   setExtent();
@@ -127,104 +122,6 @@ void FootprintIndex::fillPolygon(const Polygon& polygon, bool inside, const Chec
   }
 }
 
-/// Lists each edge in the cells from which the footprint reaches it, and lowers their `near_`.
-void FootprintIndex::spreadEdges(const Checkpoint& checkpoint) {
-  near_.assign(states_.size(), static_cast<float>(listReach()));
-  std::vector<CellEdge> pairs;
-  const std::size_t most = obstacles_.region().limits().max_near_edges;
-  for (std::uint32_t e = 0; e < edges_.size(); ++e) {
-    if (e % kEdgesAtOnce == 0) checkpoint();
-    spread(e, &pairs);
-    if (pairs.size() > most) {
-      throw InvalidRequest(text("the region's obstacles have ", edges_.size(), " edges, too many in one place: more ",
-                                "than ", most, " in sum over the cells near them (~free_space/max_near_edges); give a ",
-                                "smaller region or a coarser grid"));
-    }
-  }
-  list(pairs, checkpoint);
-}
-
-void FootprintIndex::spread(std::uint32_t e, std::vector<CellEdge>* pairs) {
-  const double reach = listReach();
-  const Point2d centre = cellCentre(0, 0);
-  const auto firstFrom = [&](double value, double corner) {
-    return std::max(0L, static_cast<long>(std::ceil((value - corner) / cell_size_)));
-  };
-  const auto lastTo = [&](double value, double corner, long count) {
-    return std::min(count - 1, static_cast<long>(std::floor((value - corner) / cell_size_)));
-  };
-  const HalfEdge& edge = edges_[e];
-  const double wide = std::abs(edge.hx) + reach, high = std::abs(edge.hy) + reach;
-  const double half_squared = std::max(edge.hx * edge.hx + edge.hy * edge.hy, 1e-18);
-  const long last_row = lastTo(edge.my + high, centre.y(), rows_);
-  const long first_column = firstFrom(edge.mx - wide, centre.x());
-  const long last_column = lastTo(edge.mx + wide, centre.x(), columns_);
-  for (long row = firstFrom(edge.my - high, centre.y()); row <= last_row; ++row) {
-    const double dy = centre.y() + static_cast<double>(row) * cell_size_ - edge.my;
-    for (long column = first_column; column <= last_column; ++column) {
-      const double dx = centre.x() + static_cast<double>(column) * cell_size_ - edge.mx;
-      const double t = std::clamp((dx * edge.hx + dy * edge.hy) / half_squared, -1.0, 1.0);
-      const double distance_squared = squared(dx - t * edge.hx) + squared(dy - t * edge.hy);
-      if (distance_squared > reach * reach) continue;
-      const auto cell = static_cast<std::uint32_t>(row * columns_ + column);
-      near_[cell] = std::min(near_[cell], static_cast<float>(std::sqrt(distance_squared)));
-      pairs->push_back({cell, e});
-    }
-  }
-}
-
-/// The pairs by cell (counting sort).
-void FootprintIndex::list(const std::vector<CellEdge>& pairs, const Checkpoint& checkpoint) {
-  starts_.assign(states_.size() + 1, 0);
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (i % kPairsAtOnce == 0) checkpoint();
-    ++starts_[pairs[i].cell + 1];
-  }
-  for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
-  listed_.resize(pairs.size());
-  std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (i % kPairsAtOnce == 0) checkpoint();
-    listed_[next[pairs[i].cell]++] = pairs[i].edge;
-  }
-}
-
-/// Beyond the reach of the lists, bounds `near_` from below by a chamfer distance transform from the cells that hold an
-/// edge: steps of 1 and sqrt(2) overestimate the straight distance by at most 1 / kChamfer.
-void FootprintIndex::extendNear() {
-  constexpr double kChamfer = 0.92;
-  std::vector<float> steps(near_.size());
-  for (std::size_t i = 0; i < near_.size(); ++i) steps[i] = near_[i] <= cell_reach_ ? 0.0F : 1e6F;
-  const auto lower = [&](long column, long row, long dc, long dr) {
-    const long c = column + dc, r = row + dr;
-    if (c < 0 || r < 0 || c >= columns_ || r >= rows_) return;
-    float& here = steps[static_cast<std::size_t>(row * columns_ + column)];
-    const float cost = dc != 0 && dr != 0 ? 1.41421356F : 1.0F;
-    here = std::min(here, steps[static_cast<std::size_t>(r * columns_ + c)] + cost);
-  };
-  for (long row = 0; row < rows_; ++row) {
-    for (long column = 0; column < columns_; ++column) {
-      for (const long dc : {-1L, 0L, 1L}) lower(column, row, dc, -1);
-      lower(column, row, -1, 0);
-    }
-  }
-  for (long row = rows_ - 1; row >= 0; --row) {
-    for (long column = columns_ - 1; column >= 0; --column) {
-      for (const long dc : {-1L, 0L, 1L}) lower(column, row, dc, 1);
-      lower(column, row, 1, 0);
-    }
-  }
-  for (long row = 0; row < rows_; ++row) {
-    for (long column = 0; column < columns_; ++column) {
-      const auto i = static_cast<std::size_t>(row * columns_ + column);
-      // Edges beyond the cells, left out because of the axle bounds, are not among the seeds.
-      const long to_border = std::min({row, rows_ - 1 - row, column, columns_ - 1 - column});
-      const double known = std::min(static_cast<double>(steps[i]) * kChamfer, static_cast<double>(to_border));
-      near_[i] = std::max(near_[i], static_cast<float>(known * cell_size_ - cell_reach_));
-    }
-  }
-}
-
 bool FootprintIndex::isWithinAxleBounds(double x, double y) const {
   return x >= axle_bounds_.min.x() && x <= axle_bounds_.max.x() && y >= axle_bounds_.min.y() &&
          y <= axle_bounds_.max.y();
@@ -242,19 +139,40 @@ double FootprintIndex::freeRadius(const Frame& frame) const {
   // No edge meets the footprint, so one point of it tells whether it is inside an obstacle. The cell's state holds for
   // all of the cell unless an edge passes through it.
   if (static_cast<double>(near_[at]) > cell_reach_) return states_[at] == State::kFree ? 0.0 : -1.0;
-  return obstacles_.filledBy(Point2d(cx, cy)) ? -1.0 : 0.0;
+  return isFilled(cell, Point2d(cx, cy)) ? -1.0 : 0.0;
+}
+
+/// Where the cell's centre is free, only an obstacle with an edge between that and the point can fill it.
+bool FootprintIndex::isFilled(long cell, const Point2d& point) const {
+  if (states_[static_cast<std::size_t>(cell)] == State::kFilled) return obstacles_.filledBy(point).has_value();
+  std::optional<int> asked;
+  for (const std::uint32_t group : groupsNear(cell)) {
+    const int source = obstacles_.edges()[groups_[group].first].source;
+    if (source == asked) continue;
+    if (obstacles_.isFilledBy(source, point)) return true;
+    asked = source;
+  }
+  return false;
 }
 
 bool FootprintIndex::edgesAreClear(long cell, const Frame& frame, double cx, double cy) const {
   const double l = box_.half_length + margin_, w = box_.half_width + margin_;
-  for (const std::uint32_t i : edgesNear(cell)) {
-    const HalfEdge& edge = edges_[i];
-    const double dx = edge.mx - cx, dy = edge.my - cy;
+  for (const std::uint32_t i : groupsNear(cell)) {
+    const EdgeGroup& group = groups_[i];
+    const double dx = group.core.mx - cx, dy = group.core.my - cy;
     const double mu = dx * frame.cos + dy * frame.sin, mv = dy * frame.cos - dx * frame.sin;
-    const double hu = edge.hx * frame.cos + edge.hy * frame.sin, hv = edge.hy * frame.cos - edge.hx * frame.sin;
-    if (!boxMeets(mu, mv, hu, hv, l, w)) continue;
+    const double hu = group.core.hx * frame.cos + group.core.hy * frame.sin;
+    const double hv = group.core.hy * frame.cos - group.core.hx * frame.sin;
+    if (!boxMeets(mu, mv, hu, hv, l + group.radius, w + group.radius)) continue;
     // Near a corner of the grown box the distance may still be kept.
-    if (isTooNear(exactDistance(edge, frame, cx, cy), i)) return false;
+    if (!edgesAreClear(group, frame, cx, cy)) return false;
+  }
+  return true;
+}
+
+bool FootprintIndex::edgesAreClear(const EdgeGroup& group, const Frame& frame, double cx, double cy) const {
+  for (std::uint32_t i = group.first; i < group.last; ++i) {
+    if (isTooNear(exactDistance(edges_[i], frame, cx, cy), i)) return false;
   }
   return true;
 }
@@ -263,15 +181,21 @@ bool FootprintIndex::meetsEdge(const FootprintBox& part, const Frame& frame) con
   const long cell = cellAt(frame.x + box_.centre * frame.cos, frame.y + box_.centre * frame.sin);
   if (cell < 0) return false;
   const double x = frame.x + part.centre * frame.cos, y = frame.y + part.centre * frame.sin;
-  const EdgeList near = edgesNear(cell);
-  return std::any_of(near.begin(), near.end(), [&](std::uint32_t i) {
-    const HalfEdge& edge = edges_[i];
+  const auto meets = [&](const HalfEdge& edge, double grown) {
     const double dx = edge.mx - x, dy = edge.my - y;
-    // A box grown by so much has its corners within the margin.
-    const double grown = marginTo(i) * M_SQRT1_2;
     return boxMeets(dx * frame.cos + dy * frame.sin, dy * frame.cos - dx * frame.sin,
                     edge.hx * frame.cos + edge.hy * frame.sin, edge.hy * frame.cos - edge.hx * frame.sin,
                     part.half_length + grown, part.half_width + grown);
+  };
+  const GroupList near = groupsNear(cell);
+  return std::any_of(near.begin(), near.end(), [&](std::uint32_t number) {
+    const EdgeGroup& group = groups_[number];
+    if (!meets(group.core, group.radius + margin_)) return false;
+    for (std::uint32_t i = group.first; i < group.last; ++i) {
+      // A box grown by so much has its corners within the margin.
+      if (meets(edges_[i], marginTo(i) * M_SQRT1_2)) return true;
+    }
+    return false;
   });
 }
 
@@ -316,8 +240,12 @@ double FootprintIndex::exactRoom(const Frame& frame) const {
   const long cell = cellAt(cx, cy);
   double room = kBeyond;
   if (cell < 0) return 0.0;
-  for (const std::uint32_t i : edgesNear(cell)) {
-    room = std::min(room, exactDistance(edges_[i], frame, cx, cy) - marginTo(i));
+  for (const std::uint32_t number : groupsNear(cell)) {
+    const EdgeGroup& group = groups_[number];
+    if (group.radius > 0.0 && exactDistance(group.core, frame, cx, cy) - group.radius - margin_ >= room) continue;
+    for (std::uint32_t i = group.first; i < group.last; ++i) {
+      room = std::min(room, exactDistance(edges_[i], frame, cx, cy) - marginTo(i));
+    }
   }
   return room;
 }

@@ -176,21 +176,47 @@ class FootprintIndex {
   /// An edge as middle and half, which is what the separating axes need.
   struct HalfEdge {
     double mx, my, hx, hy;
+
+    HalfEdge(const Point2d& begin, const Point2d& end)
+        : mx(0.5 * (begin.x() + end.x())),
+          my(0.5 * (begin.y() + end.y())),
+          hx(0.5 * (end.x() - begin.x())),
+          hy(0.5 * (end.y() - begin.y())) {}
+
+    double distanceFrom(const Point2d& point) const {
+      const double dx = point.x() - mx, dy = point.y() - my;
+      const double t = std::clamp((dx * hx + dy * hy) / std::max(hx * hx + hy * hy, 1e-18), -1.0, 1.0);
+      return std::sqrt((dx - t * hx) * (dx - t * hx) + (dy - t * hy) * (dy - t * hy));
+    }
   };
 
-  struct CellEdge {
-    std::uint32_t cell, edge;
+  /// Short edges of one obstacle that follow each other, [first, last), all within `radius` [m] of a core; or a single
+  /// edge, which is its own core. Finely drawn obstacles have fewer groups than edges.
+  struct EdgeGroup {
+    HalfEdge core;
+    double radius;
+    std::uint32_t first, last;
   };
 
-  /// Numbers of edges.
-  struct EdgeList {
+  /// How far the edges of a group may reach [m], and how many they may be.
+  struct GroupSize {
+    double extent;
+    std::size_t edges;
+  };
+
+  struct CellGroup {
+    std::uint32_t cell, group;
+  };
+
+  /// Numbers of groups.
+  struct GroupList {
     const std::uint32_t *first, *last;
     const std::uint32_t* begin() const { return first; }
     const std::uint32_t* end() const { return last; }
   };
 
   /// Those that the footprint can reach from a cell.
-  EdgeList edgesNear(long cell) const {
+  GroupList groupsNear(long cell) const {
     const auto at = static_cast<std::size_t>(cell);
     return {listed_.data() + starts_[at], listed_.data() + starts_[at + 1]};
   }
@@ -204,13 +230,18 @@ class FootprintIndex {
   void fillStates(const Checkpoint& checkpoint);
   void fillPolygon(const Polygon& polygon, bool inside, const Checkpoint& checkpoint);
   void spreadEdges(const Checkpoint& checkpoint);
-  void spread(std::uint32_t edge, std::vector<CellEdge>* pairs);
-  void list(const std::vector<CellEdge>& pairs, const Checkpoint& checkpoint);
+  void makeGroups(const GroupSize& most);
+  void addGroup(std::uint32_t first, std::uint32_t last);
+  bool spreadGroups(std::size_t most, std::vector<CellGroup>* pairs, const Checkpoint& checkpoint);
+  void spread(std::uint32_t group, std::vector<CellGroup>* pairs);
+  void list(const std::vector<CellGroup>& pairs, const Checkpoint& checkpoint);
   void extendNear();
   double listReach() const { return reach_ + cell_reach_ + kBeyond; }
   long cellAt(double x, double y) const;
   Point2d cellCentre(long column, long row) const;
   bool edgesAreClear(long cell, const Frame& frame, double cx, double cy) const;
+  bool edgesAreClear(const EdgeGroup& group, const Frame& frame, double cx, double cy) const;
+  bool isFilled(long cell, const Point2d& point) const;
   double exactDistance(const HalfEdge& edge, const Frame& frame, double cx, double cy) const;
 
   LocalObstacles obstacles_;
@@ -227,11 +258,12 @@ class FootprintIndex {
   long columns_ = 0;
   long rows_ = 0;
   std::vector<HalfEdge> edges_;
+  std::vector<EdgeGroup> groups_;
   std::vector<HalfEdge> blocks_;       ///< boxes around kBlock edges each: middle and half of the diagonal
   std::vector<State> states_;          ///< at the centre of each cell
   std::vector<float> near_;            ///< at most the distance from each cell's centre to the nearest edge [m]
   std::vector<std::uint32_t> starts_;  ///< of each cell's part of `listed_`
-  std::vector<std::uint32_t> listed_;  ///< edges by cell
+  std::vector<std::uint32_t> listed_;  ///< groups by cell
 };
 
 }  // namespace external_command

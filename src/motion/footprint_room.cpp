@@ -23,9 +23,12 @@ bool FootprintIndex::axleMayBeWithin(double x, double y, double radius) const {
 /// axleRoom() by the edges that are listed.
 double FootprintIndex::roomWithin(long cell, const Point2d& point, double limit) const {
   double room = limit;
-  for (const std::uint32_t i : edgesNear(cell)) {
-    const ObstacleEdge& edge = obstacles_.edges()[i];
-    room = std::min(room, (nearestOnSegment(point, edge.begin, edge.end) - point).norm() + easedBy(i));
+  for (const std::uint32_t number : groupsNear(cell)) {
+    const EdgeGroup& group = groups_[number];
+    if (group.core.distanceFrom(point) - group.radius >= room) continue;
+    for (std::uint32_t i = group.first; i < group.last; ++i) {
+      room = std::min(room, edges_[i].distanceFrom(point) + easedBy(i));
+    }
   }
   return room;
 }

@@ -259,7 +259,7 @@ TEST(FreeSpacePlanner, KeepsItsTimeBudgetWhileItTakesInAHugeGrid) {
 }
 
 TEST(FreeSpacePlanner, RefusesAGridWithMoreEdgesThanItKeepsInMemory) {
-  const ParkingWorld world{smallCar(), {0, 0, 0}, {20, 0, 0}, dottedGrid(2500, 2)};
+  const ParkingWorld world{smallCar(), {0, 0, 0}, {20, 0, 0}, dottedGrid(2700, 2)};
   const std::string message = messageOf<InvalidRequest>([&] { planned(world, quickParams()); });
   EXPECT_NE(message.find("a coarser grid"), std::string::npos) << message;
 }

@@ -157,6 +157,60 @@ TEST(CollisionChecker, RefusesANegativeMargin) {
   EXPECT_NO_THROW(CollisionChecker(smallCar(), 0.1, Region()));
 }
 
+Polygon post(const Point2d& middle, double radius, int corners) {
+  std::vector<Point2d> points;
+  for (int i = 0; i < corners; ++i) points.push_back(middle + radius * unitVector(2.0 * M_PI * i / corners));
+  return Polygon(points, "post");
+}
+
+TEST(CollisionChecker, AgreesWithPlainGeometryAmongFinelyDrawnObstacles) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (const auto& [radius, corners] : {std::pair{0.02, 50}, {0.3, 100}, {0.3, 7}, {1.5, 300}, {4.0, 900}}) {
+    Region::Parts parts;
+    for (int i = 0; i < 8; ++i)
+      parts.non_drivable.push_back(post({15.0 * unit(random), 15.0 * unit(random)}, radius, corners));
+    parts.drivable = post({0.0, 0.0}, 20.0, 500);
+    expectSameAsReference(Region(parts), 0.1, poses(4, 80, {0.0, 0.0}, 20.0));
+  }
+}
+
+/// Posts on a square of `size` [m] with `edges` in all.
+Region posts(double size, int corners, int edges, const RegionLimits& limits) {
+  Region::Parts parts;
+  const int side = static_cast<int>(std::sqrt(edges / corners));
+  for (int i = 0; i < side * side; ++i) {
+    parts.non_drivable.push_back(post({size * (i % side) / side, size * (i / side) / side}, 0.3, corners));
+  }
+  parts.limits = limits;
+  return Region(std::move(parts));
+}
+
+TEST(CollisionChecker, TakesInHalfAMillionShortEdgesByDefault) {
+  const VehicleParams car = smallCar();
+  for (const int corners : {100, 1000}) {
+    const Region region = posts(400.0, corners, 500'000, {});
+    const CollisionChecker checker(car, 0.1, region);
+    const double beside = 0.3 + 0.5 * car.width;  // the first post stands at the origin
+    EXPECT_TRUE(checker.isFree({0.0, -beside - 0.11, 0.0}));
+    EXPECT_FALSE(checker.isFree({0.0, -beside - 0.09, 0.0}));
+  }
+}
+
+TEST(CollisionChecker, JoinsMoreOfTheEdgesWhereTheyWouldTakeTooMuchMemory) {
+  const RegionLimits few{500'000, 200'000}, fewer{500'000, 1'000};
+  const auto taken = [](const RegionLimits& limits) {
+    return refusalOf([&] { const CollisionChecker checker(smallCar(), 0.1, posts(40.0, 100, 20'000, limits)); });
+  };
+  EXPECT_EQ(taken({}), "");
+  EXPECT_EQ(taken(few), "");
+  EXPECT_NE(taken(fewer).find("short ones side by side counted as one"), std::string::npos);
+  Region::Parts parts;
+  parts.non_drivable = posts(40.0, 100, 20'000, {}).nonDrivable();
+  parts.limits = few;
+  expectSameAsReference(Region(parts), 0.1, poses(5, 40, {20.0, 20.0}, 25.0));
+}
+
 std::string regionRefusal(const RegionLimits& limits) {
   Region::Parts parts;
   parts.non_drivable = clutter(1, 50, {0.0, 0.0});

@@ -32,7 +32,8 @@ std::string gridFault(const OccupancyGrid& grid, std::size_t cells);
 struct RegionLimits {
   std::size_t max_edges = 2'000'000;        ///< of all obstacles and borders, [4, 100000000]
   std::size_t max_near_edges = 32'000'000;  ///< those within the vehicle's reach, in sum over cells of half a metre or
-                                            ///< more; 12 bytes each, [4, 1000000000]
+                                            ///< more, short ones side by side counted as one; 12 bytes each,
+                                            ///< [4, 1000000000]
 
   /// @throws InvalidParameter  out of range.
   void validate() const;
