@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <ctime>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -44,7 +45,7 @@ over swept; path length [m] and, in brackets, that over swept area / swath width
 part of the footprint, 1 cm smaller all round, is outside; time that driving takes, changes of gear not counted [s];
 time of planning on the wall clock and on the processor [s]. All but the times is measured on the path alone. Exit code:
 0; 1 if a field cannot be planned or a path cannot be driven or leaves its field; 2 if an option is wrong or a file
-cannot be read or written.
+cannot be read or written: one that holds no fields has a line, and the others go on.
 )";
 
 constexpr double kLargeField = 12000.0;  // [m^2]
@@ -63,6 +64,7 @@ struct Summary {
   std::size_t fields = 0;
   std::size_t faulty = 0;
   std::size_t outside = 0;
+  std::size_t unreadable = 0;  ///< files
   std::vector<double> covered, ratios, large_ratios, changes, times;
   double driving = 0.0;  ///< [s]
 };
@@ -114,11 +116,13 @@ void makeNamesUnique(std::vector<CoverageCase>* fields) {
   }
 }
 
-std::vector<CoverageCase> fieldsOf(const Options& options) {
+std::vector<CoverageCase> fieldsOf(const Options& options, std::size_t* unreadable) {
   std::vector<CoverageCase> fields;
   std::vector<std::string> skipped;
+  const auto read = [&skipped](const std::string& file) { return readCoverageCases(file, &skipped); };
   for (const std::string& file : filesOf(options.inputs, ".geojson")) {
-    for (CoverageCase& field : readCoverageCases(file, &skipped)) fields.push_back(std::move(field));
+    auto some = tryReading(file, read, unreadable);
+    if (some) std::move(some->begin(), some->end(), std::back_inserter(fields));
   }
   for (const std::string& text : skipped) std::fprintf(stderr, "%s\n", text.c_str());
   if (options.inputs.empty()) fields = makeFields(static_cast<unsigned>(options.seed), options.random_fields);
@@ -188,6 +192,7 @@ void print(const Summary& summary) {
       "; gear changes a turn: median %.2f, most %.2f; driving %.0f s in all; time: median %.3f s, slowest %.3f s\n",
       median(summary.changes), largest(summary.changes), summary.driving, median(summary.times),
       largest(summary.times));
+  if (summary.unreadable > 0) std::printf("files without fields: %zu\n", summary.unreadable);
 }
 
 int run(const std::vector<std::string>& words) {
@@ -200,11 +205,12 @@ int run(const std::vector<std::string>& words) {
   options.params.validate();
   makeFolders({options.fields, options.paths, options.drawings});
   Summary summary;
-  for (const CoverageCase& field : fieldsOf(options)) {
+  for (const CoverageCase& field : fieldsOf(options, &summary.unreadable)) {
     ++summary.fields;
     runField(field, options, &summary);
   }
   print(summary);
+  if (summary.unreadable > 0) return 2;
   return summary.faulty == 0 && summary.times.size() == summary.fields ? 0 : 1;
 }
 

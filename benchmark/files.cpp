@@ -10,6 +10,8 @@ namespace benchmark {
 
 namespace fs = std::filesystem;
 
+std::string stemOf(const std::string& file) { return fs::path(file).stem().string(); }
+
 std::vector<std::string> filesOf(const std::vector<std::string>& files_and_folders, const std::string& extension) {
   std::vector<std::string> files;
   for (const std::string& name : files_and_folders) {

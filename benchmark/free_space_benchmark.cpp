@@ -39,6 +39,7 @@ beside the cases), its cost with all prices, its length, that in reverse and tha
 turns of the wheels between them (1: from straight on to full lock), how long a vehicle at manoeuvre speed waits for
 these [s], clearance [m], and the time that the case took on the wall clock and on the processor [s]. The plain cost,
 that of best_known.json, is length plus 3 m per gear change. A path that a controller could not rely on has a line more.
+A file that is no case has a line, and the others go on.
 Exit code: 0; 1 if there is such a path; 2 if an option is wrong or a file cannot be read or written.
 )";
 
@@ -58,6 +59,7 @@ struct Options {
 struct Summary {
   std::size_t cases = 0;
   std::size_t faulty = 0;
+  std::size_t unreadable = 0;                                    // files
   double length = 0.0, reverse_length = 0.0, near_length = 0.0;  // of all paths [m]
   std::vector<double> wheel_turns, waits;
   std::vector<double> first_times, first_ratios, ratios, cpu_times;
@@ -181,6 +183,16 @@ void runCase(const ParkingCase& task, const std::map<std::string, double>& best_
   std::fflush(stdout);
 }
 
+void runFile(const std::string& file, const Options& options, Summary* summary) {
+  const auto task = tryReading(file, readParkingCase, &summary->unreadable);
+  if (!task) {
+    ++summary->cases;
+    return;
+  }
+  const auto best_known = tryReading(file, bestKnownCosts, &summary->unreadable);
+  runCase(*task, best_known.value_or(std::map<std::string, double>()), options, summary);
+}
+
 void print(const Summary& summary) {
   std::printf("solved %zu of %zu; first path: median %.2f ms, slowest %.2f ms", summary.first_times.size(),
               summary.cases, 1e3 * median(summary.first_times), 1e3 * largest(summary.first_times));
@@ -196,6 +208,7 @@ void print(const Summary& summary) {
       100.0 * summary.near_length / std::max(summary.length, 1e-9), median(summary.wheel_turns),
       std::accumulate(summary.waits.begin(), summary.waits.end(), 0.0) / std::max<double>(summary.waits.size(), 1),
       median(summary.cpu_times), largest(summary.cpu_times), summary.faulty);
+  if (summary.unreadable > 0) std::printf("files that are no cases: %zu\n", summary.unreadable);
 }
 
 int run(const std::vector<std::string>& words) {
@@ -210,15 +223,14 @@ int run(const std::vector<std::string>& words) {
   makeFolders({options.cases, options.paths, options.drawings});
   const auto silence = PlannerLog::acquire({});
   Summary summary;
-  for (const std::string& file : parkingCaseFiles(options.inputs)) {
-    runCase(readParkingCase(file), bestKnownCosts(file), options, &summary);
-  }
+  for (const std::string& file : parkingCaseFiles(options.inputs)) runFile(file, options, &summary);
   if (options.made >= 0) {
     for (const ParkingCase& task : makeParkingCases(static_cast<unsigned>(options.made))) {
       runCase(task, {}, options, &summary);
     }
   }
   print(summary);
+  if (summary.unreadable > 0) return 2;
   return summary.faulty == 0 ? 0 : 1;
 }
 

@@ -54,11 +54,13 @@ Region regionOf(const JsonTree& tree, const Point2d& origin) {
   parts.axle_bounds = BoundingBox{Point2d(bounds[0], bounds[1]) - origin, Point2d(bounds[2], bounds[3]) - origin};
   for (const auto& ring : tree.get_child("obstacles")) {
     std::vector<Point2d> points;
+    const std::string name = "obstacles[" + std::to_string(parts.non_drivable.size()) + "]";
     for (const auto& corner : ring.second) {
-      const std::vector<double> xy = numbersOf(corner.second, 2, "a corner of an obstacle");
+      const std::vector<double> xy = numbersOf(corner.second, 2, "a corner of " + name);
       points.emplace_back(Point2d(xy[0], xy[1]) - origin);
     }
-    parts.non_drivable.push_back(obstacleOf(points, "obstacles[" + std::to_string(parts.non_drivable.size()) + "]"));
+    if (points.empty()) throw std::runtime_error(name + " has no corner; give at least one");
+    parts.non_drivable.push_back(obstacleOf(points, name));
   }
   return Region(std::move(parts));
 }
@@ -72,7 +74,7 @@ ParkingCase readParkingCase(const std::string& file) {
     const std::vector<double> start = numbersOf(tree.get_child("start"), 3, "start");
     const std::vector<double> goal = numbersOf(tree.get_child("goal"), 3, "goal");
     ParkingCase result;
-    result.name = tree.get<std::string>("name", fs::path(file).stem().string());
+    result.name = tree.get<std::string>("name", stemOf(file));
     result.vehicle = vehicleOf(tree.get_child("vehicle"), std::nullopt);
     result.origin = {std::round(goal[0]), std::round(goal[1])};
     result.start = {start[0] - result.origin.x(), start[1] - result.origin.y(), start[2]};

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "../benchmark/parking_case.h"
 #include "external_command/free_space/free_space_planner.h"
@@ -34,6 +36,30 @@ TEST(ParkingCases, AreAllSolvedAtACentimetre) {
 TEST(ParkingCases, ReportAFileThatIsNone) {
   EXPECT_THROW(benchmark::readParkingCase(std::string(EC_SOURCE_DIR) + "/package.xml"), std::runtime_error);
   EXPECT_THROW(benchmark::parkingCaseFiles({"/no/such/folder"}), std::runtime_error);
+}
+
+/// The refusal of a case with these obstacles and this goal; empty where it is read.
+std::string refusalOfCase(const std::string& obstacles, const std::string& goal = "[9, 0, 0]") {
+  const auto file = std::filesystem::temp_directory_path() / ("case_" + std::to_string(::getpid()) + ".json");
+  std::ofstream(file) << R"({"vehicle": {"wheelbase": 2.8, "width": 1.9, "front_overhang": 0.9, "rear_overhang": 0.9,
+    "min_turning_radius": 5}, "start": [0, 0, 0], "bounds": [-9, -9, 30, 9], "obstacles": )"
+                      << obstacles << R"(, "goal": )" << goal << "}";
+  std::string refusal;
+  try {
+    benchmark::readParkingCase(file.string());
+  } catch (const std::runtime_error& error) {
+    refusal = error.what();
+  }
+  std::filesystem::remove(file);
+  return refusal;
+}
+
+TEST(ParkingCases, AreRefusedWhereAnObstacleHasNoCornerOrOneThatIsNoPlace) {
+  EXPECT_EQ(refusalOfCase("[]"), "");
+  EXPECT_EQ(refusalOfCase("[[[20, 3]], [[20, 5], [22, 5]], [[0, 4], [2, 6], [2, 4], [0, 6]]]"), "");
+  EXPECT_NE(refusalOfCase("[[]]").find("obstacles[0] has no corner"), std::string::npos) << refusalOfCase("[[]]");
+  EXPECT_NE(refusalOfCase("[[[20, 3]], [[NaN, 0]]]"), "");
+  EXPECT_NE(refusalOfCase("[]", "[9, 0]").find("goal must be 3 numbers"), std::string::npos);
 }
 
 }  // namespace
