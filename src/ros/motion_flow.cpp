@@ -162,6 +162,15 @@ bool MotionFlow::fitToVehicle(const Pose2d& seen_at, MotionPlan* plan) const {
   return true;
 }
 
+void MotionFlow::warnOfStart(const Pose2d& vehicle, MotionPlan* plan) {
+  constexpr double kNear = 5.0;  // [m]
+  const Pose2d start = plan->path.front().pose();
+  const double distance = (start.position() - vehicle.position()).norm();
+  if (distance <= kNear) return;
+  plan->report.warnings.push_back(text("the path begins at ", at(start), ", as the command says (is_start_pose_set), ",
+                                       metres(distance), " from the vehicle at ", at(vehicle)));
+}
+
 void MotionFlow::complete(std::int64_t command_id, double target_speed, MotionPlan* plan) const {
   limitSpeeds(context_.params().vehicle, &plan->path);
   PlanningCommand& command = plan->command;

@@ -9,7 +9,7 @@ import rostest
 
 import support
 from external_command.msg import CommandStatus, LaneFollowCommand, Pose
-from external_command.srv import LaneFollow
+from external_command.srv import CancelCommand, LaneFollow
 from vehicle import Vehicle
 
 EAST_END = Pose(x=300.0, y=194.75, heading=0.0, has_heading=True)
@@ -54,6 +54,15 @@ class PathStartsTest(unittest.TestCase):
         self.assertEqual(answer.status.error_code, CommandStatus.OK, support.describe(answer.status))
         self.assertTrue(any("m from the vehicle: no manoeuvre leads there" in warning
                             for warning in answer.report.warnings), answer.report.warnings)
+
+    def test_a_given_start_is_warned_of_where_the_vehicle_is_elsewhere(self):
+        for start, is_warned_of in ((250.0, True), (92.0, False)):
+            self.vehicle.place(90.0, 194.75, 0.0)
+            answer = self.follow(is_start_pose_set=True, way_point=[Pose(x=start, y=194.75)])
+            self.assertEqual(answer.status.status, CommandStatus.RUNNING, support.describe(answer.status))
+            support.service("external_command/cancel_command", CancelCommand)(command_id=answer.status.command_id)
+            told = [warning for warning in answer.report.warnings if "(is_start_pose_set), 160.00 m from" in warning]
+            self.assertEqual(bool(told), is_warned_of, answer.report.warnings)
 
     def test_a_path_that_is_too_long_is_refused(self):
         self.vehicle.place(90.0, 194.75, 0.0)

@@ -189,6 +189,7 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
         horizon = 2.0 * std::max(horizon, took);
         continue;
       }
+      if (startIsGiven(command, 0) && here.isKnown()) MotionFlow::warnOfStart(here.pose(), &plan);
       flow_->complete(command.command_id, speed, &plan);
       plan.take_over = nullptr;
       return plan;

@@ -33,6 +33,9 @@ class MotionFlow {
   /// @return  false where it is not on the path.
   bool fitToVehicle(const Pose2d& seen_at, MotionPlan* plan) const;
 
+  /// Tells of a path that is to be driven, and begins elsewhere than at the vehicle since the command says so.
+  static void warnOfStart(const Pose2d& vehicle, MotionPlan* plan);
+
   /// Computes the speeds of the whole path, and fills what is left of command, report and scene from it.
   void complete(std::int64_t command_id, double target_speed, MotionPlan* plan) const;
 

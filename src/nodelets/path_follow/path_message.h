@@ -22,9 +22,8 @@ using FrameLookup = std::function<Pose2d(const std::string& frame)>;
 /// Orientations become headings. Many planners (navfn, for example) fill in none but the last, the goal's: where all
 /// others are the identity, or all zeros, the path has no headings, and the last is the heading to end with, unless it
 /// is one of these too. Of quaternions only the direction counts, not the length. Stamps are not looked at.
-/// @throws InvalidRequest  a position is no coordinate of a map; an orientation is not finite, or is zero between
-/// others that are not; a frame is not known.
-///                         The text names the pose as `poses[i]`.
+/// @throws InvalidRequest  a position is no coordinate of a map; an orientation is not finite, or is zero between others
+///                         that are not; a frame is not known. The text names the pose as `poses[i]`.
 PathFollowCommand toPathFollowCommand(const nav_msgs::Path& path, const FrameLookup& pose_of);
 
 }  // namespace external_command
