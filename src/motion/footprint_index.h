@@ -204,6 +204,18 @@ class FootprintIndex {
     std::size_t edges;
   };
 
+  /// Some edges of one obstacle that follow each other, [first, last), in a box: middle and half of its diagonal.
+  struct Block {
+    HalfEdge box;
+    std::uint32_t first, last;
+  };
+
+  /// The blocks [first, last) in a box. Those of more than one block have two halves: the first follows at once.
+  struct BlockNode {
+    HalfEdge box;
+    std::uint32_t first, last, second_half;
+  };
+
   struct CellGroup {
     std::uint32_t cell, group;
   };
@@ -226,6 +238,10 @@ class FootprintIndex {
   void easeMargin(std::size_t number, const Pose2d& pose);
   void easeEdge(std::size_t edge, const Point2d& centre, const EasedMargin& eased);
   void makeBlocks();
+  void addBlockNode(std::uint32_t first, std::uint32_t last);
+  template <class IsNear, class Visit>
+  void forEachBlock(const IsNear& is_near, const Visit& visit) const;
+  bool isFilled(const Point2d& point) const;
   void setExtent();
   void fillStates(const Checkpoint& checkpoint);
   void fillPolygon(const Polygon& polygon, bool inside, const Checkpoint& checkpoint);
@@ -259,11 +275,12 @@ class FootprintIndex {
   long rows_ = 0;
   std::vector<HalfEdge> edges_;
   std::vector<EdgeGroup> groups_;
-  std::vector<HalfEdge> blocks_;       ///< boxes around kBlock edges each: middle and half of the diagonal
-  std::vector<State> states_;          ///< at the centre of each cell
-  std::vector<float> near_;            ///< at most the distance from each cell's centre to the nearest edge [m]
-  std::vector<std::uint32_t> starts_;  ///< of each cell's part of `listed_`
-  std::vector<std::uint32_t> listed_;  ///< groups by cell
+  std::vector<Block> blocks_;           ///< side by side as far as may be
+  std::vector<BlockNode> block_nodes_;  ///< from the whole down
+  std::vector<State> states_;           ///< at the centre of each cell
+  std::vector<float> near_;             ///< at most the distance from each cell's centre to the nearest edge [m]
+  std::vector<std::uint32_t> starts_;   ///< of each cell's part of `listed_`
+  std::vector<std::uint32_t> listed_;   ///< groups by cell
 };
 
 }  // namespace external_command
