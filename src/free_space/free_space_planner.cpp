@@ -15,6 +15,7 @@
 #include "free_space/search/no_way.h"
 #include "motion/collision_probe.h"
 #include "path_finisher.h"
+#include "planner_words.h"
 #include "pull_away.h"
 
 namespace external_command {
@@ -46,20 +47,6 @@ struct Warning {
   std::size_t pose;
   std::string text;
 };
-
-std::string budgetWords(double budget) {
-  return budget < 0.1 ? text(std::lround(1e3 * budget), " ms") : seconds(budget);
-}
-
-/// The goals are numbered only where there are several.
-std::string nameOf(std::size_t goal, const std::vector<Pose2d>& goals) {
-  return goals.size() > 1 ? text("goal ", goal) : "the goal";
-}
-
-/// A short length [m], in millimetres where it is less than a centimetre.
-std::string closely(double length) {
-  return length < 0.01 ? text(std::round(1e4 * length) / 10.0, " mm") : metres(length);
-}
 
 /// One call of plan(): everything in the frame around the start.
 class Planning {
