@@ -52,7 +52,7 @@ void requireMaxSpeed(double speed) {
 
 void DriveLimits::validate() const {
   requireNotNegative(max_goal_distance, "max_goal_distance");
-  if (max_speed != 0.0) requireMaxSpeed(max_speed);
+  requireMaxSpeed(max_speed);
 }
 
 void DriveLimits::requireSpeed(double target_speed) const {

@@ -7,16 +7,19 @@ namespace external_command {
 
 namespace {
 
-const ros::Duration kSetBack(0.1);  ///< a clock that is put right by less goes on from the last stamp
+constexpr std::uint64_t kSetBack = 100'000'000;  ///< a clock that is put right by less goes on from the last stamp [ns]
 
 }  // namespace
 
 ros::Time RisingStamps::next() {
-  const ros::Time now = ros::Time::now();
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const bool is_set_back = now + kSetBack < last_;
-  last_ = last_.isZero() || is_set_back ? now : std::max(now, last_ + ros::Duration(0, 1));
-  return last_;
+  const std::uint64_t now = ros::Time::now().toNSec();
+  std::uint64_t last = last_, stamp = 0;
+  do {
+    const bool goes_on = last > 0 && now + kSetBack >= last;
+    stamp = goes_on ? std::max(now, last + 1) : now;
+  } while (!last_.compare_exchange_weak(last, stamp));
+  ros::Time time;
+  return time.fromNSec(stamp);
 }
 
 }  // namespace external_command
