@@ -53,17 +53,37 @@ void CommandGate::requireNewestLocked(const AdmittedCommand& command) const {
   }
 }
 
-CommandGate::Ticket CommandGate::begin(const AdmittedCommand& command, const CancelSource& planning) {
+CommandGate::Planning::Planning(CommandGate* gate, Kind kind, const AdmittedCommand& command,
+                                const CancelSource& source)
+    : gate_(*gate) {
+  const std::lock_guard<std::mutex> lock(gate_.mutex_);
+  if (kind == Kind::kMotion) gate_.requireNewestLocked(command);
+  work_ = gate_.works_.insert(gate_.works_.end(), {kind, command, source});
+}
+
+CommandGate::Planning::~Planning() {
+  const std::lock_guard<std::mutex> lock(gate_.mutex_);
+  gate_.works_.erase(work_);
+}
+
+const AdmittedCommand& CommandGate::Planning::command() const { return work_->command; }
+
+CancelToken CommandGate::Planning::cancelToken() const { return work_->source.token(); }
+
+CommandGate::Ticket CommandGate::begin(const Planning& planning) {
+  const AdmittedCommand& command = planning.command();
   const std::lock_guard<std::mutex> lock(mutex_);
   requireNewestLocked(command);
-  planning.token().throwIfCancelled();
-  if (newest_.serial != command.serial) planning_.cancel();  // it may begin once more
-  planning_ = planning;
+  planning.cancelToken().throwIfCancelled();
+  for (const Work& work : works_) {
+    const bool is_older = work.command.arrival <= command.arrival && work.command.serial != command.serial;
+    if (is_older && work.kind == Planning::Kind::kMotion) work.source.cancel();
+  }
   newest_ = command;
   newest_began_ = stamp();
   Ticket ticket;
   ticket.command_ = command;
-  ticket.planning_ = planning;
+  ticket.cancel_ = planning.cancelToken();
   return ticket;
 }
 
@@ -85,7 +105,9 @@ std::shared_ptr<const SentMotion> CommandGate::stop(bool withdraws, const std::f
   const std::lock_guard<std::mutex> lock(mutex_);
   stopped_ = *arrivals_;
   last_stop_ = ros::WallTime::now();
-  planning_.cancel();
+  for (const Work& work : works_) {
+    if (work.kind == Planning::Kind::kMotion) work.source.cancel();
+  }
   if (publish) publish();
   if (withdraws) withdrawLocked();
   return motion_;
@@ -94,6 +116,9 @@ std::shared_ptr<const SentMotion> CommandGate::stop(bool withdraws, const std::f
 void CommandGate::cancel(CommandSerial serial, const std::function<bool()>& end,
                          const std::function<void(const ros::Time& stamp)>& clear) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  for (const Work& work : works_) {
+    if (work.command.serial == serial) work.source.cancel();
+  }
   if (!end() || !motion_ || motion_->command.serial != serial) return;
   const ros::Time now = stamp();  // simulated time may have been set back
   clear(newest_.serial == serial ? now : std::min(now, newest_began_));

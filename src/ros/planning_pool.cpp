@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <future>
+#include <exception>
 #include <thread>
+#include <utility>
 
 #include "external_command/core/error.h"
 #include "external_command/core/parameter_range.h"
@@ -59,7 +60,7 @@ PlanningPool::Slot PlanningPool::take(const std::string& vehicle, Kind kind, con
   last_turns_[{vehicle, kind}] = ++turns_;
   ++(kind == Kind::kCommand ? commands_ : dry_runs_);
   changed_.notify_all();
-  return {this, kind};
+  return Slot(this, kind);
 }
 
 void PlanningPool::waitForTurn(std::unique_lock<std::mutex>* lock, Line::iterator me,
@@ -131,11 +132,80 @@ PlanningPool::Load PlanningPool::load() const {
   return load;
 }
 
+/// What a job leaves to the thread that waits for it.
+class PlanningPool::Slot::Parts {
+ public:
+  /// From now on parts are left to who calls serve().
+  void open() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_open_ = true;
+  }
+
+  /// Runs parts until the job has ended. @return  what the job threw; nullptr where it threw nothing.
+  std::exception_ptr serve() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    while (true) {
+      changed_.wait(lock, [this] { return part_ != nullptr || !is_open_; });
+      if (part_ == nullptr) return std::exchange(fault_, nullptr);
+      lock.unlock();
+      const std::exception_ptr fault = faultOf(*part_);
+      lock.lock();
+      fault_ = fault;
+      part_ = nullptr;
+      changed_.notify_all();
+    }
+  }
+
+  /// Ends serve(). To be called by the job's thread, as run() is.
+  void close(const std::exception_ptr& fault) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    fault_ = fault;
+    is_open_ = false;
+    changed_.notify_all();
+  }
+
+  void run(const std::function<void()>& part) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    if (!is_open_) {
+      lock.unlock();
+      part();
+      return;
+    }
+    part_ = &part;
+    changed_.notify_all();
+    changed_.wait(lock, [this] { return part_ == nullptr; });
+    if (fault_) std::rethrow_exception(std::exchange(fault_, nullptr));
+  }
+
+  static std::exception_ptr faultOf(const std::function<void()>& work) {
+    try {
+      work();
+      return nullptr;
+    } catch (...) {
+      return std::current_exception();
+    }
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool is_open_ = false;
+  const std::function<void()>* part_ = nullptr;  ///< to be run
+  std::exception_ptr fault_;
+};
+
+PlanningPool::Slot::Slot(PlanningPool* pool, Kind kind) : pool_(pool), kind_(kind), parts_(std::make_unique<Parts>()) {}
+
+PlanningPool::Slot::Slot(Slot&& other) noexcept
+    : pool_(std::exchange(other.pool_, nullptr)), kind_(other.kind_), parts_(std::move(other.parts_)) {}
+
 void PlanningPool::Slot::run(const std::function<void()>& job) const {
-  std::packaged_task<void()> task(job);
-  pool_->executor_.post([&task] { task(); });
-  task.get_future().get();
+  parts_->open();
+  pool_->executor_.post([this, &job] { parts_->close(Parts::faultOf(job)); });
+  if (const std::exception_ptr fault = parts_->serve()) std::rethrow_exception(fault);
 }
+
+void PlanningPool::Slot::runAtNormalPriority(const std::function<void()>& part) const { parts_->run(part); }
 
 PlanningPool::Slot::~Slot() {
   if (pool_ == nullptr) return;

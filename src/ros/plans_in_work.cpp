@@ -3,9 +3,9 @@
 
 namespace external_command {
 
-PlansInWork::Entry::Entry(PlansInWork* plans, CommandSerial command, const CancelSource& plan) : plans_(*plans) {
+PlansInWork::Entry::Entry(PlansInWork* plans, const CancelSource& plan) : plans_(*plans) {
   const std::lock_guard<std::mutex> lock(plans_.mutex_);
-  position_ = plans_.plans_.insert(plans_.plans_.end(), {command, plan});
+  position_ = plans_.plans_.insert(plans_.plans_.end(), plan);
   if (plans_.are_cancelled_) plan.cancel();
 }
 
@@ -17,14 +17,7 @@ PlansInWork::Entry::~Entry() {
 void PlansInWork::cancelForGood() {
   const std::lock_guard<std::mutex> lock(mutex_);
   are_cancelled_ = true;
-  for (const Plan& plan : plans_) plan.source.cancel();
-}
-
-void PlansInWork::cancel(CommandSerial command) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  for (const Plan& plan : plans_) {
-    if (plan.command == command) plan.source.cancel();
-  }
+  for (const CancelSource& plan : plans_) plan.cancel();
 }
 
 bool PlansInWork::areCancelled() const {

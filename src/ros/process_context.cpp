@@ -207,7 +207,6 @@ Cancellation ProcessContext::cancel(CommandSerial serial, const std::string& by)
   }
   const std::int64_t id = before->command_id;
   const auto end = [&] {
-    plans_in_work_.cancel(serial);
     cancellation.was_running = registry_.update(
         {serial, makeStatus(id, CommandStatus::ERROR, ErrorCode::kCancelled, text("cancelled by ", by))});
     return cancellation.was_running;

@@ -190,6 +190,44 @@ TEST_F(Stop, LetsANewerCommandCancelAnOlderPlan) {
   EXPECT_EQ(commands.messages().front().command_id, newer.command_id);
 }
 
+TEST_F(Stop, EndsWhatIsStillChecked) {
+  planner_->setHoldsChecks(true);
+  const auto gate = planner_->holdPlans(true);
+  auto checked = plan();
+  ASSERT_TRUE(gate->waitForEntered(1));
+  send(ActionCommand::STOP);
+  EXPECT_TRUE(gate->waitForLeft(1)) << "though nobody opened the gate";
+  const CommandStatus status = checked.get();
+  EXPECT_EQ(status.error_code, CommandStatus::CANCELLED);
+  EXPECT_NE(status.message.find("arrived before a stop"), std::string::npos) << status.message;
+}
+
+TEST_F(Stop, LetsANewerCommandEndWhatIsStillChecked) {
+  planner_->setHoldsChecks(true);
+  const auto gate = planner_->holdPlans(true);
+  auto checked = plan();
+  ASSERT_TRUE(gate->waitForEntered(1));
+  planner_->setHoldsChecks(false);
+  planner_->holdPlans(true)->open();
+  EXPECT_EQ(plan().get().status, CommandStatus::RUNNING);
+  EXPECT_TRUE(gate->waitForLeft(1)) << "though nobody opened the gate";
+  EXPECT_EQ(checked.get().error_code, CommandStatus::SUPERSEDED);
+}
+
+TEST_F(Stop, LetsACommandThatIsStillCheckedLeaveAnOlderPlanAlone) {
+  const auto gate = planner_->holdPlans(true);
+  auto older = plan();
+  ASSERT_TRUE(gate->waitForEntered(1));
+  planner_->setHoldsChecks(true);
+  const auto checks = planner_->holdPlans(true);
+  auto checked = plan();
+  ASSERT_TRUE(checks->waitForEntered(1));
+  gate->open();
+  EXPECT_EQ(older.get().status, CommandStatus::RUNNING);
+  checks->open();
+  EXPECT_EQ(checked.get().status, CommandStatus::RUNNING);
+}
+
 TEST_F(Stop, ActsAgainUnderTheIdOfAStopThatRuns) {
   Inbox<PlanningPad> pads("planning/pad");
   const std::int64_t id = 7;

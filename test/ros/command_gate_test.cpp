@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <ros/time.h>
 
+#include <list>
 #include <optional>
 #include <vector>
 
@@ -15,7 +16,12 @@ class Gate : public testing::Test {
   Gate() { ros::Time::init(); }
 
   AdmittedCommand arrive(std::int64_t id) { return {++serial_, id, gate_.arrive()}; }
-  CommandGate::Ticket begin(std::int64_t id) { return gate_.begin(arrive(id), CancelSource()); }
+  /// The work on a command, until the end of the test.
+  CommandGate::Planning& work(const AdmittedCommand& command, const CancelSource& source = CancelSource(),
+                              CommandGate::Planning::Kind kind = CommandGate::Planning::Kind::kMotion) {
+    return works_.emplace_back(&gate_, kind, command, source);
+  }
+  CommandGate::Ticket begin(std::int64_t id) { return gate_.begin(work(arrive(id))); }
 
   std::shared_ptr<const SentMotion> send(const CommandGate::Ticket& ticket) {
     auto motion = std::make_shared<SentMotion>();
@@ -42,6 +48,7 @@ class Gate : public testing::Test {
   }
 
   CommandGate gate_;
+  std::list<CommandGate::Planning> works_;
   CommandSerial serial_ = 0;
   int published_ = 0;
 };
@@ -72,7 +79,50 @@ TEST_F(Gate, DoesNotBeginARequestThatArrivedBeforeAStop) {
   const auto early = arrive(7);
   gate_.stop(true, {});
   EXPECT_THROW(gate_.requireNewest(early), Cancelled);
-  EXPECT_THROW(gate_.begin(early, CancelSource()), Cancelled);
+  EXPECT_THROW(work(early), Cancelled);
+}
+
+TEST_F(Gate, EndsTheWorkOnACommandThatDidNotBeginByAStop) {
+  const auto& checked = work(arrive(7));
+  gate_.stop(false, {});
+  EXPECT_TRUE(checked.cancelToken().isCancelled());
+  EXPECT_THROW(gate_.begin(checked), Cancelled);
+}
+
+TEST_F(Gate, EndsTheWorkOnACommandThatDidNotBeginWhereALaterOneDoes) {
+  const auto& older = work(arrive(7));
+  const auto& newer = work(arrive(8));
+  const auto& newest = work(arrive(9));
+  gate_.begin(newer);
+  EXPECT_TRUE(older.cancelToken().isCancelled());
+  EXPECT_THROW(gate_.begin(older), Superseded);
+  EXPECT_FALSE(newest.cancelToken().isCancelled());
+}
+
+TEST_F(Gate, EndsTheWorkOnADryRunByItsCancellingOnly) {
+  const auto early = arrive(7);
+  gate_.stop(true, {});
+  const auto& dry = work(early, CancelSource(), CommandGate::Planning::Kind::kDryRun);
+  begin(8);
+  gate_.stop(true, {});
+  EXPECT_FALSE(dry.cancelToken().isCancelled());
+  cancel(dry.command().serial);
+  EXPECT_TRUE(dry.cancelToken().isCancelled());
+}
+
+TEST_F(Gate, LeavesOtherWorkAloneWhereOneIsCancelled) {
+  const auto& one = work(arrive(7));
+  const auto& other = work(arrive(7));
+  cancel(other.command().serial);
+  EXPECT_FALSE(one.cancelToken().isCancelled());
+  EXPECT_TRUE(other.cancelToken().isCancelled());
+}
+
+TEST_F(Gate, ForgetsWorkThatHasEnded) {
+  const CancelSource source;
+  { const CommandGate::Planning ended(&gate_, CommandGate::Planning::Kind::kMotion, arrive(7), source); }
+  gate_.stop(true, {});
+  EXPECT_FALSE(source.token().isCancelled());
 }
 
 TEST_F(Gate, SendsWhatMovesNothingUnlessItArrivedBeforeAStop) {
@@ -103,17 +153,16 @@ TEST_F(Gate, CancelsAnOlderPlanningWhenANewerBegins) {
 
 TEST_F(Gate, CountsTheLaterArrivalAsTheNewerHoweverLongEachTakesToBegin) {
   const auto slow = arrive(7);
-  const auto quick = gate_.begin(arrive(8), CancelSource());
-  EXPECT_THROW(gate_.begin(slow, CancelSource()), Superseded);
+  const auto quick = begin(8);
+  EXPECT_THROW(work(slow), Superseded);
   EXPECT_FALSE(quick.cancelToken().isCancelled());
   EXPECT_NO_THROW(send(quick));
 }
 
 TEST_F(Gate, LetsACommandBeginOnceMoreWithoutCancellingItself) {
-  const auto command = arrive(7);
-  const CancelSource planning;
-  gate_.begin(command, planning);
-  const auto again = gate_.begin(command, planning);
+  const auto& planning = work(arrive(7));
+  gate_.begin(planning);
+  const auto again = gate_.begin(planning);
   EXPECT_FALSE(again.cancelToken().isCancelled());
   EXPECT_NO_THROW(send(again));
 }
@@ -153,12 +202,12 @@ TEST_F(Gate, ClearsNothingForACommandThatIsNotUnderWay) {
 
 TEST_F(Gate, NeitherBeginsNorSendsACommandWhosePlanningIsCancelled) {
   const CancelSource planning;
-  const auto ticket = gate_.begin(arrive(7), planning);
+  const auto ticket = gate_.begin(work(arrive(7), planning));
   planning.cancel();
   EXPECT_THROW(send(ticket), Cancelled);
   EXPECT_EQ(published_, 0);
   const auto older = begin(8);
-  EXPECT_THROW(gate_.begin(arrive(9), planning), Cancelled);
+  EXPECT_THROW(gate_.begin(work(arrive(9), planning)), Cancelled);
   EXPECT_FALSE(older.cancelToken().isCancelled()) << "what did not begin cancels nothing";
   EXPECT_NO_THROW(send(older));
 }

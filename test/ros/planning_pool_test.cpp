@@ -191,6 +191,35 @@ TEST(PlanningPool, HandsOverWhatThePlanningThrows) {
   EXPECT_NO_THROW(slot.run([] {}));
 }
 
+TEST(PlanningPool, RunsPartsOfAPlanOnTheThreadThatWaitsForIt) {
+  PlanningPool pool(limits(2, 1));
+  const auto slot = pool.take(kVehicle, Kind::kCommand, giveUp);
+  std::vector<std::thread::id> threads;
+  const auto note = [&] { threads.push_back(std::this_thread::get_id()); };
+  slot.run([&] {
+    for (int i = 0; i < 1000; ++i) slot.runAtNormalPriority(note);
+  });
+  slot.runAtNormalPriority(note);
+  EXPECT_EQ(threads, std::vector<std::thread::id>(1001, std::this_thread::get_id()));
+}
+
+TEST(PlanningPool, HandsAPlanWhatItsPartsThrow) {
+  PlanningPool pool(limits(2, 1));
+  const auto slot = pool.take(kVehicle, Kind::kCommand, giveUp);
+  int thrown = 0;
+  slot.run([&] {
+    try {
+      slot.runAtNormalPriority([] { throw NotReady("no pose"); });
+    } catch (const NotReady&) {
+      ++thrown;
+    }
+  });
+  EXPECT_EQ(thrown, 1);
+  EXPECT_THROW(slot.run([&] { slot.runAtNormalPriority([] { throw NotReady("no pose"); }); }), NotReady);
+  EXPECT_THROW(slot.runAtNormalPriority([] { throw NotReady("no pose"); }), NotReady);
+  EXPECT_NO_THROW(slot.run([&] { slot.runAtNormalPriority([] {}); }));
+}
+
 TEST(PlanningPool, ForgetsWhoGaveUpWaiting) {
   PlanningPool pool(limits(2, 1));
   const auto in_work = pool.take(kVehicle, Kind::kDryRun, giveUp);

@@ -9,7 +9,7 @@ namespace {
 TEST(PlansInWork, CancelsEveryPlanThatIsInWork) {
   PlansInWork plans;
   const CancelSource first, second;
-  const PlansInWork::Entry first_entry(&plans, 1, first), second_entry(&plans, 2, second);
+  const PlansInWork::Entry first_entry(&plans, first), second_entry(&plans, second);
   EXPECT_EQ(plans.size(), 2u);
   EXPECT_FALSE(first.token().isCancelled());
   plans.cancelForGood();
@@ -17,20 +17,10 @@ TEST(PlansInWork, CancelsEveryPlanThatIsInWork) {
   EXPECT_TRUE(second.token().isCancelled());
 }
 
-TEST(PlansInWork, CancelsThePlanOfOneCommandOnly) {
-  PlansInWork plans;
-  const CancelSource first, second;
-  const PlansInWork::Entry first_entry(&plans, 1, first), second_entry(&plans, 2, second);
-  plans.cancel(2);
-  plans.cancel(3);
-  EXPECT_FALSE(first.token().isCancelled());
-  EXPECT_TRUE(second.token().isCancelled());
-}
-
 TEST(PlansInWork, LeavesAPlanAloneThatHasEnded) {
   PlansInWork plans;
   const CancelSource ended;
-  { const PlansInWork::Entry entry(&plans, 1, ended); }
+  { const PlansInWork::Entry entry(&plans, ended); }
   EXPECT_EQ(plans.size(), 0u);
   plans.cancelForGood();
   EXPECT_FALSE(ended.token().isCancelled());
@@ -42,7 +32,7 @@ TEST(PlansInWork, CancelsAPlanThatComesTooLate) {
   plans.cancelForGood();
   EXPECT_TRUE(plans.areCancelled());
   const CancelSource late;
-  const PlansInWork::Entry entry(&plans, 1, late);
+  const PlansInWork::Entry entry(&plans, late);
   EXPECT_TRUE(late.token().isCancelled());
 }
 

@@ -122,6 +122,9 @@ class BlockingProcessor : public MotionCommandProcessor<Service> {
     return gate_;
   }
 
+  /// Whether what the gate holds is the checking of a command, before it ends an older one; else its planning.
+  void setHoldsChecks(bool holds_checks) { holds_checks_ = holds_checks; }
+
   /// Whether there is a route to where the commands lead from now on.
   void setHasRoute(bool has_route) { has_route_ = has_route; }
 
@@ -135,6 +138,7 @@ class BlockingProcessor : public MotionCommandProcessor<Service> {
 
  private:
   void check(const Command& /*command*/) const override {}
+  bool takesOver() const override { return holds_checks_; }
 
   std::optional<RoutingTask> convert(const Command& /*command*/, const PlanStart& /*start*/) override {
     if (!has_route_) throw NoRoute("the test has taken the route away");
@@ -159,7 +163,7 @@ class BlockingProcessor : public MotionCommandProcessor<Service> {
   std::mutex mutex_;
   std::shared_ptr<TestGate> gate_ = std::make_shared<TestGate>();
   bool polls_cancel_ = true;
-  std::atomic<bool> has_route_{true};
+  std::atomic<bool> has_route_{true}, holds_checks_{false};
 };
 
 class BlockingPlanner : public BlockingProcessor<PathFollow> {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <deque>
 #include <functional>
+#include <list>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -33,22 +34,46 @@ struct SentMotion {
 /// serialized already, never while planning. Thread-safe.
 ///
 ///   arrive()  when the request comes        -> what is stopped later than this stops it too
-///   begin()   before the long planning      -> cancels the planning of what arrived earlier
+///   Planning  as long as work is done on it -> a stop, a later command that begins, or its cancelling ends that
+///   begin()   before the long planning      -> ends the work on what arrived earlier
 ///   commit()  to send it                    -> refused where a stop or a later arrival came in between
 ///   cancel()  to end this one only          -> it is not sent, or cleared
 ///   retire()  when it has ended             -> it moves the vehicle no more
 class CommandGate {
+ private:
+  struct Work;
+
  public:
-  /// The right to plan for one command, and to send it once.
+  /// Work on one command, from its first check to its sending, as long as this lives. It must not outlive the gate.
+  class Planning {
+   public:
+    enum class Kind { kMotion, kDryRun };  ///< a dry run moves nothing: neither a stop nor a later command ends it
+
+    /// @param source  raised to end the work.
+    /// @throws  for a motion, as requireNewest().
+    Planning(CommandGate* gate, Kind kind, const AdmittedCommand& command, const CancelSource& source);
+    ~Planning();
+    Planning(const Planning&) = delete;
+    Planning& operator=(const Planning&) = delete;
+
+    const AdmittedCommand& command() const;
+    CancelToken cancelToken() const;
+
+   private:
+    CommandGate& gate_;
+    std::list<Work>::iterator work_;
+  };
+
+  /// The right to send one command once.
   class Ticket {
    public:
     const AdmittedCommand& command() const { return command_; }
-    CancelToken cancelToken() const { return planning_.token(); }
+    const CancelToken& cancelToken() const { return cancel_; }
 
    private:
     friend class CommandGate;
     AdmittedCommand command_;
-    CancelSource planning_;
+    CancelToken cancel_;
   };
 
   CommandGate();
@@ -78,10 +103,9 @@ class CommandGate {
   /// @throws Cancelled  a stop came in since the command arrived; nothing is published.
   void sendUnlessStopped(const AdmittedCommand& command, const std::function<void()>& publish) const;
 
-  /// Cancels the planning in progress of an older command, if there is one. A command may begin more than once.
-  /// @param planning  raised when a stop or a later command ends this one's planning.
+  /// Ends the work on older commands. A command may begin more than once.
   /// @throws  as requireNewest(); Cancelled also where `planning` was cancelled already.
-  Ticket begin(const AdmittedCommand& command, const CancelSource& planning);
+  Ticket begin(const Planning& planning);
 
   /// Calls `publish` and makes the ticket's command the one that moves the vehicle.
   /// @return  the motion it replaces; nullptr where none was under way.
@@ -89,15 +113,15 @@ class CommandGate {
   std::shared_ptr<const SentMotion> commit(const Ticket& ticket, std::shared_ptr<const SentMotion> motion,
                                            const std::function<void()>& publish);
 
-  /// Cancels the planning in progress; nothing that arrived before is sent any more. Does not wait for it.
+  /// Ends the work on motions; nothing that arrived before is sent any more. Does not wait for it.
   /// `publish` (may be empty) is called while the gate is held, so that what it sends leaves after every commit before
   /// it and before every one after it.
   /// @param withdraws  the motion under way, too, so that a planner that starts later does not drive it.
   /// @return  that motion; nullptr where there is none.
   std::shared_ptr<const SentMotion> stop(bool withdraws, const std::function<void()>& publish);
 
-  /// Cancels one command and no other. Both functions are called while the gate is held.
-  /// @param end    ends the command and its planning; false where it has ended already, then nothing is cleared.
+  /// Ends the work on one command, and the command, and no other. Both functions are called while the gate is held.
+  /// @param end    ends the command; false where it has ended already, then nothing is cleared.
   /// @param clear  tells the planner to clear the motion, where it is the one under way. The stamp to give lies before
   ///               that of any motion that is sent later: planners take a stop to be about the motions before its
   ///               stamp.
@@ -124,6 +148,12 @@ class CommandGate {
   CommandSerial lastMotion() const;
 
  private:
+  struct Work {
+    Planning::Kind kind;
+    AdmittedCommand command;
+    CancelSource source;
+  };
+
   void requireNotStoppedLocked(const AdmittedCommand& command) const;
   void requireNewestLocked(const AdmittedCommand& command) const;
   void withdrawLocked();
@@ -136,7 +166,7 @@ class CommandGate {
   ros::WallTime last_stop_;    ///< zero: never
   AdmittedCommand newest_;     ///< that began, by its arrival
   ros::Time newest_began_;     ///< every motion of it has a later stamp
-  CancelSource planning_;      ///< raises the newest ticket's token
+  std::list<Work> works_;
   std::shared_ptr<const SentMotion> motion_;
   std::deque<std::shared_ptr<const SentMotion>> unshown_;
   CommandSerial last_motion_ = 0;

@@ -26,7 +26,8 @@ namespace external_command {
 /// A derived class may   override planningTime(), isPlannedAtOnce(), beginsAtVehicle() and takesOver(), and set
 ///                       MotionPlan::on_sent.
 /// The hooks that plan run on a planning thread, below normal priority, but for plans that are made at once, and for
-/// convert() of a command that has to wait for such a thread; no lock is held.
+/// convert() of a command that has to wait for such a thread; no lock is held. What takes a lock of the gate is left to
+/// the service's own thread meanwhile: a stop must not wait for a thread of low priority.
 template <class Service>
 class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
  public:
@@ -86,14 +87,16 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
   }
 
   CommandStatus execute(const Command& command, const AdmittedCommand& admitted, Response* response) final {
-    const CancelSource planning;
-    const PlansInWork::Entry entry(&plans_in_work_, admitted.serial, planning);
-    const PlansInWork::Entry cancellable(&this->context().plansInWork(), admitted.serial, planning);
-    this->context().registry().requireRunning(admitted);  // it may have been cancelled before it could be found there
-    const auto slot = takeSlot(command, admitted, planning);
+    using Planning = CommandGate::Planning;
+    const CancelSource source;
+    const PlansInWork::Entry entry(&plans_in_work_, source);
+    const auto kind = command.dry_run ? Planning::Kind::kDryRun : Planning::Kind::kMotion;
+    const Planning planning(&this->context().gate(), kind, admitted, source);
+    this->context().registry().requireRunning(admitted);  // it may have been cancelled before the gate knew of it
+    const auto slot = takeSlot(command, planning);
     try {
-      return command.dry_run ? planDry(command, slot, planning.token(), response)
-                             : planAndSend(command, admitted, slot, planning, response);
+      return command.dry_run ? planDry(command, slot, planning.cancelToken(), response)
+                             : planAndSend(command, planning, slot, response);
     } catch (const Cancelled&) {
       requireLoaded();
       if (!command.dry_run) this->context().gate().requireNewest(admitted);  // tells who cancelled it
@@ -102,26 +105,26 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
   }
 
  private:
-  PlanningPool::Slot takeSlot(const Command& command, const AdmittedCommand& admitted, const CancelSource& planning) {
+  PlanningPool::Slot takeSlot(const Command& command, const CommandGate::Planning& planning) {
     const auto kind = command.dry_run ? PlanningPool::Kind::kDryRun : PlanningPool::Kind::kCommand;
     bool has_begun = command.dry_run;
     return this->context().planningPool().take(this->context().vehicleName(), kind, [&] {
       requireLoaded();
-      if (!command.dry_run) this->context().gate().requireNewest(admitted);
-      planning.token().throwIfCancelled();
-      if (!has_begun) beginBeforeItsTurn(command, admitted, planning);
+      if (!command.dry_run) this->context().gate().requireNewest(planning.command());
+      planning.cancelToken().throwIfCancelled();
+      if (!has_begun) beginBeforeItsTurn(command, planning);
       has_begun = true;
     });
   }
 
   /// While a command waits, an older one of the vehicle must not be planned on, and sent. Only one that has a route may
   /// cancel it; where the vehicle is may have changed by the time of planning, so nothing of this is kept.
-  void beginBeforeItsTurn(const Command& command, const AdmittedCommand& admitted, const CancelSource& planning) {
+  void beginBeforeItsTurn(const Command& command, const CommandGate::Planning& planning) {
     const PlanStart here = this->context().motionWatch().startFor(0.0);
     const double horizon = horizonOf(command, here);
     const PlanStart start = horizon > 0.0 ? this->context().motionWatch().startFor(horizon) : here;
-    if (const auto task = convert(command, start)) flow_->requireRoute(*task, planning.token());
-    this->context().gate().begin(admitted, planning);
+    if (const auto task = convert(command, start)) flow_->requireRoute(*task, planning.cancelToken());
+    this->context().gate().begin(planning);
   }
 
   CommandStatus planDry(const Command& command, const PlanningPool::Slot& slot, const CancelToken& cancel,
@@ -141,12 +144,12 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
     return makeStatus(command.command_id, CommandStatus::FINISHED, ErrorCode::kOk, "dry run: nothing was sent");
   }
 
-  CommandStatus planAndSend(const Command& command, const AdmittedCommand& admitted, const PlanningPool::Slot& slot,
-                            const CancelSource& planning, Response* response) {
+  CommandStatus planAndSend(const Command& command, const CommandGate::Planning& planning,
+                            const PlanningPool::Slot& slot, Response* response) {
     const ros::SteadyTime begin = ros::SteadyTime::now();
     std::optional<MotionPlan> plan;
     CommandGate::Ticket ticket;
-    runPlan(command, slot, [&] { plan = planFromWhereItWillBe(command, admitted, planning, &ticket); });
+    runPlan(command, slot, [&] { plan = planFromWhereItWillBe(command, planning, slot, &ticket); });
     takeReport(begin, &*plan, response);
     flow_->send(ticket, *std::move(plan));
     return makeStatus(command.command_id, CommandStatus::RUNNING, ErrorCode::kOk, "sent");
@@ -162,27 +165,28 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
 
   /// A vehicle that drives on while its plan is made may be elsewhere when it is done: planned once more, then, from
   /// where the vehicle will be.
-  MotionPlan planFromWhereItWillBe(const Command& command, const AdmittedCommand& admitted,
-                                   const CancelSource& planning, CommandGate::Ticket* ticket) {
+  MotionPlan planFromWhereItWillBe(const Command& command, const CommandGate::Planning& planning,
+                                   const PlanningPool::Slot& slot, CommandGate::Ticket* ticket) {
+    const CancelToken cancel = planning.cancelToken();
     const bool is_at_vehicle = beginsAtVehicle(command);
     double horizon = 0.0;
     for (int tries = 1;; ++tries) {
       const ros::SteadyTime try_begin = ros::SteadyTime::now();
-      const PlanStart here = this->context().motionWatch().startFor(0.0);
+      const PlanStart here = startFor(0.0, slot);
       if (tries == 1) horizon = horizonOf(command, here);
-      MotionPlan plan(horizon > 0.0 ? this->context().motionWatch().startFor(horizon) : here);
+      MotionPlan plan(horizon > 0.0 ? startFor(horizon, slot) : here);
       const double speed = flow_->cappedSpeed(command.target_speed, &plan.report);
       // The route first, a matter of a millisecond: a command without one must not disturb what is being planned.
-      if (const auto task = convert(command, plan.start)) flow_->addRoute(*task, speed, planning.token(), &plan);
+      if (const auto task = convert(command, plan.start)) flow_->addRoute(*task, speed, cancel, &plan);
       bool has_begun = false;
       plan.take_over = [&] {
-        *ticket = this->context().gate().begin(admitted, planning);
+        slot.runAtNormalPriority([&] { *ticket = this->context().gate().begin(planning); });
         has_begun = true;
       };
       if (!takesOver()) plan.take_over();
-      processSpecialCommand(command, planning.token(), &plan);
+      processSpecialCommand(command, cancel, &plan);
       if (!has_begun) plan.take_over();
-      flow_->assemble(speed, is_at_vehicle, planning.token(), &plan);
+      flow_->assemble(speed, is_at_vehicle, cancel, &plan);
       if (is_at_vehicle && here.isKnown() && !flow_->fitToVehicle(here.pose(), &plan)) {
         const double took = (ros::SteadyTime::now() - try_begin).toSec();
         requireAnotherTry(tries, took);
@@ -194,6 +198,12 @@ class MotionCommandProcessor : public ServiceCommandProcessor<Service> {
       plan.take_over = nullptr;
       return plan;
     }
+  }
+
+  PlanStart startFor(double horizon, const PlanningPool::Slot& slot) const {
+    std::optional<PlanStart> start;
+    slot.runAtNormalPriority([&] { start = this->context().motionWatch().startFor(horizon); });
+    return *std::move(start);
   }
 
   double horizonOf(const Command& command, const PlanStart& here) const {

@@ -48,7 +48,11 @@ class PlanningPool {
     /// Runs `job` on a planning thread and waits for it. What it throws is thrown here.
     void run(const std::function<void()>& job) const;
 
-    Slot(Slot&& other) noexcept : pool_(other.pool_), kind_(other.kind_) { other.pool_ = nullptr; }
+    /// Runs `part` on the thread that waits in run(), and waits for it: for the part of a job that takes a lock which
+    /// a stop takes, too. Runs it on this thread where none waits. What it throws is thrown here.
+    void runAtNormalPriority(const std::function<void()>& part) const;
+
+    Slot(Slot&& other) noexcept;
     Slot(const Slot&) = delete;
     Slot& operator=(const Slot&) = delete;
     Slot& operator=(Slot&&) = delete;
@@ -56,10 +60,12 @@ class PlanningPool {
 
    private:
     friend class PlanningPool;
-    Slot(PlanningPool* pool, Kind kind) : pool_(pool), kind_(kind) {}
+    class Parts;
+    Slot(PlanningPool* pool, Kind kind);
 
     PlanningPool* pool_;
     Kind kind_;
+    std::unique_ptr<Parts> parts_;
   };
 
   /// Waits for a slot.

@@ -21,7 +21,6 @@
 #include "external_command/ros/parameters.h"
 #include "external_command/ros/planning_pads.h"
 #include "external_command/ros/planning_pool.h"
-#include "external_command/ros/plans_in_work.h"
 #include "external_command/ros/progress_topic.h"
 #include "external_command/ros/readiness_topic.h"
 #include "external_command/ros/refusal_counts.h"
@@ -142,9 +141,6 @@ class ProcessContext {
   /// after a stop. What the planning module got is not sent once more.
   void showMotionAgain();
 
-  /// Of all processors, by which a single one can be cancelled.
-  PlansInWork& plansInWork() { return plans_in_work_; }
-
   /// Ends one command, whatever it waits for, and no other; it is then ERROR, CANCELLED. What is planned is not sent;
   /// the planner clears what is driven; what else was sent (an action, a signal) is waited for no longer. Waits for
   /// nothing.
@@ -205,7 +201,6 @@ class ProcessContext {
   const std::shared_ptr<const ReferencePaths> reference_paths_;  ///< nullptr where there is no router
   const VehiclePose vehicle_pose_;
   PlanningPads planning_pads_;
-  PlansInWork plans_in_work_;
   CommandGate gate_;
   StatusChanges status_changes_;
   CommandRegistry registry_;
