@@ -3,6 +3,9 @@
 
 #include <chrono>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "../benchmark/made_cases.h"
 #include "external_command/core/error.h"
@@ -63,6 +66,42 @@ TEST(LongWays, GetCheaperWithMoreWork) {
   EXPECT_LT(result.cost, result.first_path_cost);
   EXPECT_TRUE(joins(result.path, task.start, task.goal));
   EXPECT_TRUE(isDrivable(result.path, task.vehicle));
+}
+
+/// A budget of work, so that results do not depend on the clock.
+FreeSpaceParams improvingParams() {
+  FreeSpaceParams params = firstPathParams();
+  params.improve_budget = 300.0;
+  params.improve_iterations = 60'000;
+  return params;
+}
+
+TEST(LongWays, LoseGearChangesThatAreDearerThanAnotherWay) {
+  for (const auto& [name, most_changes] : {std::pair("slalom_8_7_4", 12U), {"slalom_10_7_4", 14U}}) {
+    const ParkingCase task = madeCase(name);
+    const FreeSpacePlan result = planned(task, improvingParams());
+    EXPECT_LE(result.gear_changes, most_changes) << name;
+    EXPECT_LT(result.cost, result.first_path_cost) << name;
+    EXPECT_TRUE(joins(result.path, task.start, task.goal)) << name;
+    EXPECT_TRUE(isDrivable(result.path, task.vehicle)) << name;
+    EXPECT_TRUE(staysClear(result.path, task.vehicle, task.region, 0.008)) << name;
+  }
+}
+
+TEST(LongWays, KeepGearChangesThatCostNothing) {
+  const ParkingCase task = madeCase("slalom_8_7_4");
+  FreeSpaceParams params = improvingParams();
+  params.gear_change_cost = 0.0;
+  const FreeSpacePlan result = planned(task, params);
+  EXPECT_GE(result.gear_changes, 13U);
+  EXPECT_TRUE(isDrivable(result.path, task.vehicle));
+}
+
+TEST(LongWays, AreTheSameForTheSameSeed) {
+  const ParkingCase task = madeCase("slalom_8_7_4");
+  const FreeSpacePlan first = planned(task, improvingParams()), second = planned(task, improvingParams());
+  EXPECT_EQ(first.cost, second.cost);
+  EXPECT_EQ(first.path.size(), second.path.size());
 }
 
 std::string refusalOf(const ParkingCase& task) {

@@ -5,11 +5,13 @@
 
 #include "free_space/search/two_way_search.h"
 #include "path_improver.h"
+#include "track.h"
 
 namespace external_command {
 
 /// Uses whatever time it gets to make a path cheaper: improves it locally and, when that no longer helps, searches anew
-/// with other settings for a path of another shape, of all of the way or, where that is long, of a part of it.
+/// with other settings for a path of another shape, of all of the way or, where that is long, of parts around its
+/// cusps.
 class AnytimeImprover {
  public:
   AnytimeImprover(const Scene& scene, const DrivingCost& cost, const Query& query, const BoundingBox& area,
@@ -19,7 +21,8 @@ class AnytimeImprover {
   Arcs improve(const Arcs& arcs, WorkBudget* budget);
 
  private:
-  Arcs windowSearched(const Arcs& arcs, WorkBudget* budget);
+  Arcs withPartSearched(const Arcs& arcs, WorkBudget* budget);
+  double beginOfPart(const Track& track, double length);
 
   Scene scene_;
   DrivingCost cost_;
