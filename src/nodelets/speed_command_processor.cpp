@@ -3,6 +3,7 @@
 
 #include "external_command/core/text.h"
 #include "external_command/ros/checks.h"
+#include "external_command/ros/stamped.h"
 
 namespace external_command {
 
@@ -42,7 +43,7 @@ void SpeedCommandProcessor::check(const SpeedCommand& command) const {
 CommandStatus SpeedCommandProcessor::execute(const SpeedCommand& command, const AdmittedCommand& admitted,
                                              Response* /*response*/) {
   const double limit = context().params().vehicle.max_speed;
-  SpeedCommand sent = command;
+  SpeedCommand sent = stamped(command);
   std::string message = "sent";
   if (command.kind == SpeedCommand::TARGET_SPEED && command.target_speed > limit) {
     sent.target_speed = limit;

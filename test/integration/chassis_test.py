@@ -56,7 +56,8 @@ class ChassisTest(unittest.TestCase):
     def test_a_command_that_changes_no_signal_is_finished_when_sent(self):
         status = control()
         self.assertEqual(status.status, CommandStatus.FINISHED, support.describe(status))
-        self.sent.wait_for(lambda m: m.command_id == status.command_id, "the chassis command on its topic")
+        sent = self.sent.wait_for(lambda m: m.command_id == status.command_id, "the chassis command on its topic")
+        self.assertFalse(sent.header.stamp.is_zero(), "it goes on with the stamp of its sending")
 
     def test_passes_custom_operations_on_untouched(self):
         packed = any_message.pack(SpeedCommand(kind=SpeedCommand.TARGET_SPEED, target_speed=3.5))

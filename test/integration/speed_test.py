@@ -64,7 +64,13 @@ class SpeedTest(unittest.TestCase):
         self.assertIn("15", status.message)
 
     def test_a_fresh_stamp_is_fine(self):
-        self.assert_sent(change_speed(SpeedCommand.RESTORE_TARGET_SPEED, age=0.5))
+        sent = self.assert_sent(change_speed(SpeedCommand.RESTORE_TARGET_SPEED, age=0.5))
+        self.assertGreater((rospy.Time.now() - sent.header.stamp).to_sec(), 0.5, "it goes on as it came")
+
+    def test_a_command_without_a_stamp_goes_on_with_that_of_its_sending(self):
+        before = rospy.Time.now()
+        sent = self.assert_sent(change_speed(SpeedCommand.RESTORE_TARGET_SPEED))
+        self.assertGreaterEqual(sent.header.stamp, before)
 
     def test_refuses_stale_stamps_and_those_of_the_future(self):
         self.assert_refused(change_speed(SpeedCommand.RESTORE_TARGET_SPEED, age=3.0), CommandStatus.STALE_REQUEST,

@@ -10,6 +10,7 @@
 #include "external_command/core/text.h"
 #include "external_command/ros/bounded_subscription.h"
 #include "external_command/ros/checks.h"
+#include "external_command/ros/stamped.h"
 #include "external_command/ros/steady_time.h"
 
 namespace external_command {
@@ -107,10 +108,11 @@ CommandStatus ChassisCommandProcessor::execute(const ChassisCommand& command, co
   const std::lock_guard<std::mutex> lock(mutex_);
   context().registry().requireRunning(admitted);
   const bool changes_signals = commandsAny(command.basic_signal);
+  const ChassisCommand sent = stamped(command);
   context().gate().sendUnlessStopped(admitted, [&] {
     if (changes_signals) record(pending_->add(admitted, command.basic_signal, steadyNow()));
     is_waiting_ = true;
-    for (const ros::Publisher& publisher : publishers_) publisher.publish(command);
+    for (const ros::Publisher& publisher : publishers_) publisher.publish(sent);
   });
   if (!changes_signals) {
     return makeStatus(command.command_id, CommandStatus::FINISHED, ErrorCode::kOk,
