@@ -75,10 +75,10 @@ CommandGate::Ticket CommandGate::begin(const Planning& planning) {
   const std::lock_guard<std::mutex> lock(mutex_);
   requireNewestLocked(command);
   planning.cancelToken().throwIfCancelled();
-  for (const Work& work : works_) {
+  endWorkLocked([&](const Work& work) {
     const bool is_older = work.command.arrival <= command.arrival && work.command.serial != command.serial;
-    if (is_older && work.kind == Planning::Kind::kMotion) work.source.cancel();
-  }
+    return is_older && work.kind == Planning::Kind::kMotion;
+  });
   newest_ = command;
   newest_began_ = stamp();
   Ticket ticket;
@@ -105,9 +105,7 @@ std::shared_ptr<const SentMotion> CommandGate::stop(bool withdraws, const std::f
   const std::lock_guard<std::mutex> lock(mutex_);
   stopped_ = *arrivals_;
   last_stop_ = ros::WallTime::now();
-  for (const Work& work : works_) {
-    if (work.kind == Planning::Kind::kMotion) work.source.cancel();
-  }
+  endWorkLocked([](const Work& work) { return work.kind == Planning::Kind::kMotion; });
   if (publish) publish();
   if (withdraws) withdrawLocked();
   return motion_;
@@ -116,14 +114,18 @@ std::shared_ptr<const SentMotion> CommandGate::stop(bool withdraws, const std::f
 void CommandGate::cancel(CommandSerial serial, const std::function<bool()>& end,
                          const std::function<void(const ros::Time& stamp)>& clear) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  for (const Work& work : works_) {
-    if (work.command.serial == serial) work.source.cancel();
-  }
+  endWorkLocked([&](const Work& work) { return work.command.serial == serial; });
   if (!end() || !motion_ || motion_->command.serial != serial) return;
   const ros::Time now = stamp();  // simulated time may have been set back
   clear(newest_.serial == serial ? now : std::min(now, newest_began_));
   withdrawLocked();
   motion_.reset();
+}
+
+void CommandGate::endWorkLocked(const std::function<bool(const Work&)>& is_meant) {
+  for (const Work& work : works_) {
+    if (is_meant(work)) work.source.cancel();
+  }
 }
 
 /// What came before the motion under way must not be shown behind its withdrawal.

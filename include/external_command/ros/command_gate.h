@@ -156,6 +156,7 @@ class CommandGate {
 
   void requireNotStoppedLocked(const AdmittedCommand& command) const;
   void requireNewestLocked(const AdmittedCommand& command) const;
+  void endWorkLocked(const std::function<bool(const Work&)>& is_meant);
   void withdrawLocked();
 
   const std::string name_;
