@@ -131,6 +131,18 @@ function(ec_add_rostest file)
   endif()
 endfunction()
 
+# ec_tests_take(SECONDS KIND NAMES...)
+# About how long these tests take on a small machine: the longest begin first. Rostests are named without .test.
+function(ec_tests_take seconds kind)
+  foreach(name ${ARGN})
+    if(kind STREQUAL rostest)
+      file(RELATIVE_PATH path ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/${name}.test)
+      string(REPLACE "/" "_" name ${path})
+    endif()
+    set_tests_properties(_ctest_${PROJECT_NAME}_${kind}_${name} PROPERTIES COST ${seconds})
+  endforeach()
+endfunction()
+
 # ec_add_launch_check(FILE)
 # roslaunch's check of a launch file: it parses, and package.xml names what it starts.
 function(ec_add_launch_check file)

@@ -31,6 +31,7 @@ class Program:
     command: List[str]
     result_file: str
     is_serial: bool  # nothing may run beside it
+    cost: float  # about how many seconds it takes; 0 where CMake names none
 
     @property
     def title(self):
@@ -86,14 +87,16 @@ def _program(test, package, prefix, environment):
     wrapper = next(index for index, word in enumerate(command) if word.endswith("/run_tests.py"))
     _, _, rest = test["name"].partition(f"_ctest_{package}_")
     kind, _, name = rest.partition("_")
-    is_serial = any(each["name"] == "RUN_SERIAL" and each["value"] for each in test.get("properties", []))
-    return Program(kind, prefix + name, [environment] + command, command[wrapper + 1], is_serial)
+    properties = {each["name"]: each["value"] for each in test.get("properties", [])}
+    return Program(kind, prefix + name, [environment] + command, command[wrapper + 1],
+                   is_serial=bool(properties.get("RUN_SERIAL")), cost=properties.get("COST", 0.0))
 
 
 def select(programs, words):
-    """The programs whose title contains one of the words; all where there are none."""
+    """The programs whose title contains one of the words; all where there are none. Longest first, so that none of them
+    is at work alone at the end."""
     chosen = [program for program in programs if not words or any(word in program.title for word in words)]
-    return sorted(chosen, key=lambda program: (program.is_serial, program.kind == "rostest", program.title))
+    return sorted(chosen, key=lambda program: (program.is_serial, -program.cost, program.kind == "rostest", program.title))
 
 
 class Runner:

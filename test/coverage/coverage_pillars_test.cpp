@@ -62,12 +62,14 @@ TEST(CoveragePillars, EndSwathsWhereTheyStandTooClose) {
 TEST(CoveragePillars, ArePassedForwardByAVehicleThatIsNotToReverse) {
   CoverageParams forward = params();
   forward.reverse_to_turn = false;
-  const CoverageResult result = CoveragePlanner(sweeper(), forward).plan(hall(), kStart, {}, {});
-  const CoverageResult none = CoveragePlanner(sweeper(), forward).plan(kEmptyHall, kStart, {}, {});
+  const CoverageArea empty{box(0, 0, 44, 28), {}};
+  const CoverageArea hall{empty.outer, {post(15, 14), post(29, 14)}};
+  const CoverageResult result = CoveragePlanner(sweeper(), forward).plan(hall, kStart, {}, {});
+  const CoverageResult none = CoveragePlanner(sweeper(), forward).plan(empty, kStart, {}, {});
   EXPECT_LE(result.gear_changes, none.gear_changes);
   EXPECT_GT(countBent(result), 0u);
   EXPECT_GT(result.coverage_ratio, 0.95);
-  EXPECT_TRUE(isDrivable(result.path, hall()));
+  EXPECT_TRUE(isDrivable(result.path, hall));
 }
 
 TEST(CoveragePillars, DoNotTurnTheSwathsFromTheHeadingThatIsWished) {

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The simulated vehicle as the tests of the running system see and drive it."""
 import math
+import time
 
 import rospy
 import tf2_ros
@@ -58,7 +59,11 @@ class Vehicle:
             message.pose.pose.orientation.w = math.cos(heading / 2.0)
             support.wait_until(lambda: self._initial_pose.get_num_connections() > 0, "the vehicle takes poses")
             self._initial_pose.publish(message)
-            support.wait_until(lambda: self.is_at(x, y, heading), "the vehicle is there")
+            end = time.monotonic() + 3.0
+            while not self.is_at(x, y, heading):
+                if time.monotonic() > end:  # it took a command that was under way yet, and has left again
+                    return False
+                time.sleep(0.01)
         return self._component_sees_it_at(x, y)
 
     def is_at(self, x, y, heading):
