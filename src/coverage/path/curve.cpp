@@ -154,13 +154,20 @@ std::vector<Pose2d> evenPoses(const Curve& curve, int n) {
   return poses;
 }
 
+EvenArc::EvenArc(const Pose2d& begin, const ArcSegment& arc, double reach, double step)
+    : begin_(begin),
+      arc_(arc),
+      steps_(std::max(
+          1, static_cast<int>(std::ceil(std::abs(arc.length) * (1.0 + reach * std::abs(arc.kappa)) / step)))) {}
+
+Pose2d EvenArc::pose(int i) const { return advance(begin_, arc_, std::abs(arc_.length) * i / steps_); }
+
 std::vector<Pose2d> posesAlong(const Curve& curve, double reach, double step) {
   std::vector<Pose2d> poses{curve.start};
   Pose2d begin = curve.start;
   for (const ArcSegment& arc : curve.arcs) {
-    const double length = std::abs(arc.length);
-    const int n = std::max(1, static_cast<int>(std::ceil(length * (1.0 + reach * std::abs(arc.kappa)) / step)));
-    for (int i = 1; i <= n; ++i) poses.push_back(advance(begin, arc, length * i / n));
+    const EvenArc even(begin, arc, reach, step);
+    for (int i = 1; i <= even.steps(); ++i) poses.push_back(even.pose(i));
     begin = poses.back();
   }
   return poses;

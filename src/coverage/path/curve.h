@@ -44,6 +44,23 @@ std::vector<Pose2d> evenPoses(const Curve& curve, int n);
 
 inline Pose2d aboutFace(const Pose2d& pose) { return {pose.x, pose.y, normalizeAngle(pose.heading + M_PI)}; }
 
+/// An arc in steps of equal length, so short that no corner of a vehicle that reaches `reach` [m] from its reference
+/// point moves more than `step` [m] in one of them.
+class EvenArc {
+ public:
+  EvenArc(const Pose2d& begin, const ArcSegment& arc, double reach, double step);
+
+  int steps() const { return steps_; }
+
+  /// After `i` steps, 0 to steps().
+  Pose2d pose(int i) const;
+
+ private:
+  Pose2d begin_;
+  ArcSegment arc_;
+  int steps_;
+};
+
 /// Poses along the curve, its start and end among them, close enough that no corner of a vehicle that reaches `reach`
 /// [m] from its reference point moves more than `step` [m] from one to the next.
 std::vector<Pose2d> posesAlong(const Curve& curve, double reach, double step);
