@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "external_command/ros/parameter_check.h"
 #include "external_command/ros/parameters.h"
 #include "external_command/ros/status.h"
 
@@ -11,10 +10,13 @@ namespace external_command {
 
 namespace {
 
-/// The updater reads it too, and takes whatever it finds.
+/// The updater reads them too, and takes whatever it finds; the second in ROS Noetic only.
 double readPeriod(const ros::NodeHandle& parameters) {
+  const ParameterReader reader(parameters);
   double period = 1.0;
-  ParameterReader(parameters).readWithin("diagnostic_period", 0.1, 3600.0, &period);
+  bool has_full_names = false;
+  reader.readWithin("diagnostic_period", 0.1, 3600.0, &period);
+  reader.read("diagnostics_use_fqn", &has_full_names);
   return period;
 }
 
@@ -23,7 +25,6 @@ double readPeriod(const ros::NodeHandle& parameters) {
 Diagnostics::Diagnostics(const ros::NodeHandle& nh, const ros::NodeHandle& parameters, const Conditions& conditions)
     : conditions_(conditions), period_(readPeriod(parameters)), updater_(nh, parameters, parameters.getNamespace()) {
   updater_.setHardwareID("none");
-  noteKnownParameter(parameters.resolveName("diagnostics_use_fqn"));  // read by the updater of ROS Noetic
 }
 
 void Diagnostics::add(const std::string& name, std::function<void(Status&)> fill) { values_[name] = std::move(fill); }

@@ -148,6 +148,7 @@ class LoadingTest(unittest.TestCase):
             "map_origin": ([1.0], "none, auto, or [x, y]"),
             "map_frame": (3, "string"),
             "diagnostic_period": ("often", "number"),
+            "diagnostics_use_fqn": ("yes", "diagnostics_use_fqn must be a boolean, it is a string"),
             "max_pose_age": (-1.0, "[0.01, 3600]"),
             "planner_silence_timeout": ("long", "number"),
             "vehicle": ({"width": -2.0}, "vehicle/width"),
@@ -178,6 +179,11 @@ class LoadingTest(unittest.TestCase):
             with self.subTest(period):
                 self.assert_stops(component([LANE_FOLLOW], diagnostic_period=period),
                                   "parameter %s/external_command/diagnostic_period is " % NAMESPACE, "[0.1, 3600]")
+
+    def test_starts_with_either_kind_of_names_in_the_diagnostics(self):
+        for has_full_names in (True, False):
+            with self.subTest(has_full_names):
+                self.assert_starts(component([LANE_FOLLOW], diagnostics_use_fqn=has_full_names))
 
     def test_starts_with_a_period_of_diagnostics_at_either_end(self):
         for period in (0.1, 3600):

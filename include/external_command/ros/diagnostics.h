@@ -21,7 +21,7 @@ class Diagnostics {
 
   /// @param parameters  of `diagnostic_period` and `diagnostics_use_fqn`; its namespace is the name before the colon.
   /// @param conditions  must live as long as this.
-  /// @throws InvalidParameter  `diagnostic_period` is no number in [0.1, 3600] s.
+  /// @throws InvalidParameter  `diagnostic_period` is no number in [0.1, 3600] s, or `diagnostics_use_fqn` no boolean.
   Diagnostics(const ros::NodeHandle& nh, const ros::NodeHandle& parameters, const Conditions& conditions);
 
   /// Adds values to the condition `name`, or a status of its own where there is none of that name.
