@@ -13,11 +13,11 @@ import rospy
 import rosservice
 from geometry_msgs.msg import Point
 
+from answer_times import ANSWER_LIMIT, latest_answer
 from external_command import msg
 from external_command.client import SERVICES, polygon, pose
 
 COUNTS = [0xffffffff, 0x80000000, 0x7fffffff, 0x20000001, 0x10000001, 100000000, 1000000, 65536, 255]
-ANSWER_LIMIT = 5.0  # [s]
 
 
 def example(service):
@@ -99,7 +99,7 @@ class RawCaller:
     def _connect(self):
         host, port = self._address[len("rosrpc://"):].rsplit(":", 1)
         self._socket = socket.create_connection((host, int(port)), ANSWER_LIMIT)
-        self._socket.settimeout(ANSWER_LIMIT)
+        self._socket.settimeout(latest_answer("zone_cover"))
         self._socket.sendall(frame([b"service=" + self._name.encode(), b"md5sum=" + self._class._md5sum.encode(),
                                     b"callerid=/raw", b"persistent=%d" % self._persistent]))
         self._take(struct.unpack("<I", self._take(4))[0])
@@ -154,7 +154,7 @@ def shoot_bytes(seed, end, findings, services=tuple(sorted(SERVICES))):
             continue
         duration = time.monotonic() - begin
         findings.note("bytes to " + service, status.error_code, duration)
-        if duration > ANSWER_LIMIT:
+        if duration > latest_answer(service):
             findings.add("%s answered bytes late" % service, "after %.1f s: %s; to %s" % (duration, status.message,
                                                                                          data.hex()))
         if status.error_code == msg.CommandStatus.INTERNAL_ERROR:
@@ -226,8 +226,8 @@ def raw_class(message_class):
         "_full_text": message_class._full_text})
 
 
-def publish_bytes(seed, end, topics, findings):
-    """Damaged messages until `end`. `topics`: {name: example message}."""
+def publish_bytes(seed, end, topics, findings, is_left_alone=lambda name: False):
+    """Damaged messages until `end`. `topics`: {name: example message}; `is_left_alone(name)`: not now."""
     chance = random.Random(seed)
     publishers, classes, examples = {}, {}, {}
     for name, message in topics.items():
@@ -236,6 +236,8 @@ def publish_bytes(seed, end, topics, findings):
         examples[name] = serialized(message)
     while time.monotonic() < end:
         for name, publisher in publishers.items():
+            if is_left_alone(name):
+                continue
             message = classes[name](data=damaged(examples[name], chance))
             publisher.publish(message)
             findings.note("bytes on " + name, 0, 0.0)
