@@ -20,7 +20,8 @@ DrivingTime::DrivingTime(const VehicleParams& vehicle, std::shared_ptr<const Pat
 }
 
 double DrivingTime::limitAt(std::size_t point) const {
-  return std::min((*path_)[point].speed, order_.most) * order_.factor;
+  const double limit = std::min((*path_)[point].speed, order_.most);
+  return std::max(limit * order_.factor, std::min(limit, kLeastSpeed));
 }
 
 /// The speed changes evenly. A stretch between two stops is speeding up and braking.

@@ -56,6 +56,17 @@ TEST(DrivingTime, TakesLongerWhereAnOrderIsSlower) {
   EXPECT_NEAR(half, 2.0 * DrivingTime(vehicle(), legs({200.0})).left(100.0, 10.0), 0.3);
 }
 
+TEST(DrivingTime, CountsWithTheSlowestSpeedWhereAFactorAsksForLess) {
+  for (const double factor : {1e-3, 1e-9, 1e-300, std::numeric_limits<double>::denorm_min()}) {
+    const DrivingTime time(vehicle(), legs({200.0, 50.0}), {std::numeric_limits<double>::infinity(), factor});
+    EXPECT_NEAR(time.left(0.0, 0.0), 250.0 / kLeastSpeed, 50.0) << factor;
+  }
+  const DrivingTime slow(vehicle(), legs({200.0}), {0.02, 0.1});
+  EXPECT_NEAR(slow.left(0.0, 0.0), 200.0 / kLeastSpeed, 50.0);
+  const DrivingTime faster(vehicle(), legs({200.0}), {std::numeric_limits<double>::infinity(), 0.0011});
+  EXPECT_LT(faster.left(0.0, 0.0), 0.95 * 200.0 / kLeastSpeed);
+}
+
 TEST(DrivingTime, IsTheSameWhereAnOrderIsFasterThanThePath) {
   EXPECT_DOUBLE_EQ(DrivingTime(vehicle(), legs({200.0}), {50.0, 1.0}).left(0.0, 0.0),
                    DrivingTime(vehicle(), legs({200.0})).left(0.0, 0.0));

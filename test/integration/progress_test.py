@@ -118,9 +118,11 @@ class ProgressTest(unittest.TestCase):
         before = self.silent_status(command_id).time_left
         for fields, least in ((dict(kind=SpeedCommand.TARGET_SPEED, target_speed=0.5), LENGTH),
                               (dict(kind=SpeedCommand.TARGET_SPEED_FACTOR, target_speed_factor=0.5), 2.0 * LENGTH),
-                              (dict(kind=SpeedCommand.TARGET_SPEED_FACTOR, target_speed_factor=0.0), 2.0 * LENGTH)):
+                              (dict(kind=SpeedCommand.TARGET_SPEED_FACTOR, target_speed_factor=0.0), 2.0 * LENGTH),
+                              (dict(kind=SpeedCommand.TARGET_SPEED_FACTOR, target_speed_factor=1e-9), 40.0 * LENGTH)):
             self.change_speed(**fields)
             support.wait_until(lambda: self.silent_status(command_id).time_left > 0.9 * least, "the time is longer")
+            self.assertLess(self.silent_status(command_id).time_left, 100.0 * LENGTH, fields)
         self.change_speed(kind=SpeedCommand.RESTORE_TARGET_SPEED)
         support.wait_until(lambda: self.silent_status(command_id).time_left < before + 5.0, "the time is as before")
 

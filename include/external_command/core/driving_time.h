@@ -11,7 +11,8 @@
 
 namespace external_command {
 
-/// How a path is to be driven slower than its limits: no faster than `most`, and that times `factor`.
+/// How a path is to be driven slower than its limits: no faster than `most`, and that times `factor`. A factor that
+/// asks for less than kLeastSpeed is counted with as that: nobody waits for what hardly moves.
 struct SpeedOrder {
   double most = std::numeric_limits<double>::infinity();  ///< above 0 [m/s]
   double factor = 1.0;                                    ///< in (0, 1]
