@@ -211,7 +211,7 @@ Direction gearAfter(const DistinctLine& given, std::size_t i) {
   if (error <= kMaxHeadingError) return Direction::kForward;
   if (M_PI - error <= kMaxHeadingError) return Direction::kReverse;
   const std::size_t from = given.number[i], to = given.number[i + 1];
-  const auto& [point, heading] = line.names;
+  const std::string &point = line.names.point, &heading = line.names.heading;
   throw InvalidRequest(text(heading, "[", from, "] ", radians(line.headings[i]), " and ", heading, "[", to, "] ",
                             radians(line.headings[i + 1]), " lie across the way from ", point, "[", from, "] ",
                             at(line.points[i]), " to ", point, "[", to, "] ", at(line.points[i + 1]),
@@ -221,7 +221,9 @@ Direction gearAfter(const DistinctLine& given, std::size_t i) {
 
 std::vector<Direction> gearsOf(const DistinctLine& given) {
   const WaypointLine& line = given.line;
-  if (line.end_heading && !std::isfinite(*line.end_heading)) throw InvalidRequest("end_heading is not finite");
+  if (line.end_heading && !std::isfinite(*line.end_heading)) {
+    throw InvalidRequest(line.names.end_heading + " is not finite");
+  }
   std::vector<Direction> gears(line.points.size() - 1, Direction::kForward);
   if (line.headings.empty()) return gears;
   for (std::size_t i = 0; i < line.headings.size(); ++i) {

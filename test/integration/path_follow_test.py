@@ -9,6 +9,7 @@ import rostest
 import tf2_ros
 from geometry_msgs.msg import Point, PoseStamped, TransformStamped
 from nav_msgs.msg import Path
+from rosgraph_msgs.msg import Log
 
 import support
 from external_command import any_message
@@ -135,6 +136,22 @@ class PathFollowTest(unittest.TestCase):
         self.assert_refused(dry_run(STRAIGHT, left_path_width=2.0), "right_path_width")
         self.assert_refused(dry_run(STRAIGHT, left_path_width=-2.0, right_path_width=2.0), "left_path_width is -2")
 
+    def test_refuses_borders_that_are_swapped_and_warns_of_one_that_the_path_crosses(self):
+        left, right = (points((0.0, y), (10.0, y), (20.0, y)) for y in (2.0, -1.5))
+        self.assert_refused(
+            dry_run(STRAIGHT, left_boundary=right, right_boundary=left),
+            "left_boundary[0] (0.00, -1.50) lies 1.50 m to the right of the path, and right_boundary[0] (0.00, 2.00) "
+            "lies 2.00 m to the left of the path, at way_point[0] (0.00, 0.00)", "exchange the two")
+        in_part = dict(left_boundary=left[:2] + right[2:], right_boundary=right[:2] + left[2:])
+        self.assert_refused(dry_run(STRAIGHT, **in_part), "left_boundary[2] (20.00, -1.50) lies 1.50 m to the right")
+        beside = points((0.0, 2.0), (10.0, -0.5), (20.0, 2.0))
+        crossed = about_the_path(dry_run(STRAIGHT, left_boundary=beside, right_boundary=right))
+        self.assertIn("left_boundary[1] (10.00, -0.50) lies 0.50 m to the right of the path at way_point[1] (10.00, "
+                      "0.00): the path leaves its borders", crossed)
+        back = dict(way_point=STRAIGHT[::-1], left_boundary=left[::-1], right_boundary=right[::-1])
+        self.assert_refused(dry_run(**back), "exchange the two")
+        self.assert_planned(dry_run(heading=[0.0] * 3, **back))
+
     def test_transforms_another_frame(self):
         broadcaster = tf2_ros.StaticTransformBroadcaster()
         broadcaster.sendTransform(yard())
@@ -184,6 +201,24 @@ class PathFollowTest(unittest.TestCase):
         self.assertEqual(entry.caller, rospy.get_name())
         self.sent_command(entry.reply.command_id)
         support.wait_for_status(entry.reply.command_id, CommandStatus.FINISHED)
+
+    def test_names_the_fields_of_the_message_in_what_it_warns_of(self):
+        log = support.Collector("/rosout", Log, connected=False)
+        corner = points((0.0, 0.0), (30.0, 0.0), (30.0, 30.0))
+        for way, fields, words in (
+                (corner, {}, "the path has a corner of 1.57 rad at poses[1], (30.00, 0.00)"),
+                (STRAIGHT, dict(end_orientation=(math.sin(1.0), math.cos(1.0))),
+                 "2.00 rad (the heading of the last of poses)")):
+            with self.subTest(words):
+                rospy.sleep(0.1)  # of a flood of such lines 20 a second are written
+                reply = self.publish_path(way, **fields).reply
+                self.assertEqual(reply.status, CommandStatus.RUNNING, support.describe(reply))
+                start = "path_follow %d has warnings: " % reply.command_id
+                line = log.wait_for(lambda m: m.msg.startswith(start), "the warnings in the log").msg
+                self.assertIn(words, line)
+                self.assertNotIn("way_point", line)
+        log.close()
+        self.assertIn("way_point[1]", about_the_path(dry_run(corner))[0])
 
     def assert_driven_forward(self, entry, *ends):
         """The path sent for it is driven forward, between these ends."""

@@ -15,6 +15,7 @@ namespace external_command {
 struct WaypointNames {
   std::string point = "way_point";  ///< for `way_point[i]`
   std::string heading = "heading";  ///< for `heading[i]`
+  std::string end_heading = "end_heading";
 };
 
 /// Points that a path passes through, in order. One that lies within 1 mm of the one before repeats it: both are one

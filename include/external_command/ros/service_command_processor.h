@@ -59,8 +59,8 @@ class ServiceCommandProcessor : public CommandService {
 
   /// Does with a command that came another way what the service does: check, admit, execute, record, log.
   /// To be called on the processor's executor.
-  Response process(const Command& request, const std::string& caller) {
-    return process(request, Origin{caller, arrivalOfThisCallback(), {}, {}});
+  Response process(const Command& request, const std::string& caller, OnAdmitted on_admitted = {}) {
+    return process(request, Origin{caller, arrivalOfThisCallback(), {}, std::move(on_admitted)});
   }
 
  private:

@@ -10,6 +10,8 @@
 #include "external_command/core/waypoint_path.h"
 #include "external_command/ros/action_front.h"
 #include "external_command/ros/bounded_subscription.h"
+#include "external_command/ros/log_writer.h"
+#include "path_border_checks.h"
 #include "path_message.h"
 
 namespace external_command {
@@ -18,6 +20,7 @@ namespace {
 
 constexpr std::size_t kMaxBendWarnings = 20;
 constexpr double kSameEndHeading = 0.05;  // [rad]
+const WaypointNames kNamesOfMessage = {"poses", "the heading of poses", "the heading of the last of poses"};
 
 WaypointLine toLine(const PathFollowCommand& command, const Pose2d& frame, const WaypointNames& names = {}) {
   WaypointLine line;
@@ -46,53 +49,8 @@ PathFollowCommand withoutRepeats(const PathFollowCommand& command, const std::ve
   return distinct;
 }
 
-void requireSameCount(std::size_t size, std::size_t way_points, const std::string& field) {
-  if (size == way_points) return;
-  throw InvalidRequest(text(field, " has ", size, " points, way_point ", way_points,
-                            "; each border needs one point per way point, or give left_path_width and "
-                            "right_path_width instead"));
-}
-
-void checkBorders(const PathFollowCommand& command) {
-  requireNotNegative(command.left_path_width, "left_path_width");
-  requireNotNegative(command.right_path_width, "right_path_width");
-  const bool has_widths = command.left_path_width > 0.0 || command.right_path_width > 0.0;
-  const bool has_boundaries = !command.left_boundary.empty() || !command.right_boundary.empty();
-  if (has_widths && has_boundaries) {
-    throw InvalidRequest(text("left_boundary has ", command.left_boundary.size(), " points, right_boundary ",
-                              command.right_boundary.size(), ", and left_path_width is ", command.left_path_width,
-                              ", right_path_width ", command.right_path_width,
-                              "; give boundaries or widths, not both"));
-  }
-  if (has_widths && (command.left_path_width == 0.0 || command.right_path_width == 0.0)) {
-    throw InvalidRequest(text("left_path_width is ", command.left_path_width, ", right_path_width ",
-                              command.right_path_width, "; give both or neither"));
-  }
-  if (!has_boundaries) return;
-  requireSameCount(command.left_boundary.size(), command.way_point.size(), "left_boundary");
-  requireSameCount(command.right_boundary.size(), command.way_point.size(), "right_boundary");
-  checkPoints(command.left_boundary, 2, "left_boundary");
-  checkPoints(command.right_boundary, 2, "right_boundary");
-}
-
-/// Where the given borders leave less room than the vehicle's width.
-void warnOfNarrowPath(const PathFollowCommand& command, double vehicle_width, std::vector<std::string>* warnings) {
-  const auto warn = [&](const std::string& what, double width) {
-    warnings->push_back(text(what, " leave ", metres(width), " between them; the vehicle is ", metres(vehicle_width),
-                             " wide (~vehicle/width)"));
-  };
-  const double width = command.left_path_width + command.right_path_width;
-  if (width > 0.0 && width < vehicle_width) warn("left_path_width and right_path_width", width);
-  for (std::size_t i = 0; i < command.left_boundary.size(); ++i) {
-    const auto &left = command.left_boundary[i], &right = command.right_boundary[i];
-    const double gap = std::hypot(left.x - right.x, left.y - right.y);
-    if (gap >= vehicle_width) continue;
-    return warn(text("left_boundary[", i, "] and right_boundary[", i, "]"), gap);
-  }
-}
-
-std::string describe(const TightBend& bend, double min_radius) {
-  const std::string place = text("way_point[", bend.waypoint, "], ", at(bend.position));
+std::string describe(const TightBend& bend, const WaypointNames& names, double min_radius) {
+  const std::string place = text(names.point, "[", bend.waypoint, "], ", at(bend.position));
   const std::string needed =
       text("the vehicle needs a radius of ", metres(min_radius), " (~vehicle/min_turning_radius)");
   if (bend.corner == 0.0) {
@@ -103,22 +61,23 @@ std::string describe(const TightBend& bend, double min_radius) {
               turns_back ? ", or headings that say where it reverses" : "");
 }
 
-void warnOfTightBends(const std::vector<TightBend>& bends, double min_radius, std::vector<std::string>* warnings) {
+void warnOfTightBends(const std::vector<TightBend>& bends, const WaypointNames& names, double min_radius,
+                      std::vector<std::string>* warnings) {
   for (std::size_t i = 0; i < bends.size() && i < kMaxBendWarnings; ++i) {
-    warnings->push_back(describe(bends[i], min_radius));
+    warnings->push_back(describe(bends[i], names, min_radius));
   }
   if (bends.size() <= kMaxBendWarnings) return;
   warnings->push_back(text(bends.size() - kMaxBendWarnings, " more places bend too tightly"));
 }
 
 /// Planners for vehicles that turn on the spot end with any heading.
-void warnOfEndHeading(const WaypointPath& result, std::vector<std::string>* warnings) {
+void warnOfEndHeading(const WaypointPath& result, const WaypointNames& names, std::vector<std::string>* warnings) {
   if (std::abs(result.end_turn) < kSameEndHeading) return;
   const Pose2d end = result.path.back().pose();
   warnings->push_back(
       text("the path ends at ", at(end), " with a heading of ", radians(end.heading), ", not with ",
-           radians(normalizeAngle(end.heading + result.end_turn)), " (end_heading): the vehicle ",
-           "cannot turn there; let the last way points lead into that heading, or plan with free_space"));
+           radians(normalizeAngle(end.heading + result.end_turn)), " (", names.end_heading,
+           "): the vehicle cannot turn there; let the last points lead into that heading, or plan with free_space"));
 }
 
 }  // namespace
@@ -156,7 +115,7 @@ void PathFollowCommandProcessor::takePath(const ros::MessageEvent<nav_msgs::Path
   command.header = path.header;
   try {
     command = toPathFollowCommand(path, [this](const std::string& f) { return context().vehiclePose().ofFrame(f); });
-    checkLine(command, {"poses", "the heading of poses"});
+    checkLine(command, kNamesOfMessage);
   } catch (const Error&) {
     CommandLogEntry entry;
     entry.header.stamp = ros::Time::now();
@@ -166,11 +125,36 @@ void PathFollowCommandProcessor::takePath(const ros::MessageEvent<nav_msgs::Path
     if (isLogged()) log(std::move(entry));
     return;
   }
-  process(command, event.getPublisherName());
+  const PathFollow::Response response = carryOutOfMessage(command, event.getPublisherName());
+  if (response.report.warnings.empty()) return;
+  std::string line = text("path_follow ", response.status.command_id, " has warnings: ");  // nobody is answered
+  for (const std::string& warning : response.report.warnings) {
+    line += (&warning == &response.report.warnings.front() ? "" : "; ") + warning;
+  }
+  logLater(LogLevel::kWarn, path_warnings_, line);
+}
+
+PathFollow::Response PathFollowCommandProcessor::carryOutOfMessage(const PathFollowCommand& command,
+                                                                   const std::string& caller) {
+  std::int64_t id = 0;
+  PathFollow::Response response = process(command, caller, [&](const AdmittedCommand& admitted) {
+    id = admitted.id;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    of_messages_.insert(id);
+  });
+  const std::lock_guard<std::mutex> lock(mutex_);
+  of_messages_.erase(id);
+  return response;
+}
+
+WaypointNames PathFollowCommandProcessor::namesOf(std::int64_t command_id) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return of_messages_.count(command_id) > 0 ? kNamesOfMessage : WaypointNames();
 }
 
 void PathFollowCommandProcessor::check(const PathFollowCommand& command) const {
   checkLine(command, {});
+  requireFinite(command.end_heading, "end_heading");  // it goes on, used or not
   checkBorders(command);
   requireTargetSpeed(command.target_speed);
 }
@@ -197,13 +181,13 @@ void PathFollowCommandProcessor::processSpecialCommand(const PathFollowCommand& 
                                                        MotionPlan* plan) {
   const ContextParams& params = context().params();
   const Pose2d frame = context().vehiclePose().ofFrame(command.header.frame_id);
-  const WaypointLine line = toLine(command, frame);
+  const WaypointLine line = toLine(command, frame, namesOf(command.command_id));
   checkStart(line.points.front(), &plan->report.warnings);
   WaypointPath result = pathThrough(line, params.vehicle, params.reference_path.spacing, command.target_speed,
                                     params.path_bounds, cancel);
-  warnOfNarrowPath(command, params.vehicle.width, &plan->report.warnings);
-  warnOfTightBends(result.tight_bends, params.vehicle.min_turning_radius, &plan->report.warnings);
-  warnOfEndHeading(result, &plan->report.warnings);
+  warnOfBorders(command, params.vehicle.width, &plan->report.warnings);
+  warnOfTightBends(result.tight_bends, line.names, params.vehicle.min_turning_radius, &plan->report.warnings);
+  warnOfEndHeading(result, line.names, &plan->report.warnings);
   plan->path = std::move(result.path);
   plan->command.command_type = PlanningCommand::CUSTOM;
   plan->command.custom_command = packAny(withoutRepeats(command, line.points));
