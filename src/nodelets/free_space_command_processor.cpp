@@ -40,7 +40,7 @@ void FreeSpaceCommandProcessor::start() {
 }
 
 void FreeSpaceCommandProcessor::check(const FreeSpaceCommand& command) const {
-  requireFinite(command.parking_spot_pose, "parking_spot_pose");
+  requireSendable(command.parking_spot_pose, "parking_spot_pose");
   if (!command.parking_spot_pose.has_heading) {
     throw InvalidRequest("parking_spot_pose.has_heading is false; a parking pose needs a heading");
   }

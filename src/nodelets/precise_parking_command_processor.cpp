@@ -57,7 +57,8 @@ void PreciseParkingCommandProcessor::start() {
 
 void PreciseParkingCommandProcessor::check(const PreciseParkingCommand& command) const {
   checkWayPoints(command.way_point, command.is_start_pose_set, context().params().requests);
-  requireFinite(command.parking_spot_pose, "parking_spot_pose");
+  requireSendable(command.way_point, "way_point");
+  requireSendable(command.parking_spot_pose, "parking_spot_pose");
   if (!command.parking_spot_pose.has_heading) {
     throw InvalidRequest("parking_spot_pose.has_heading is false; a parking pose needs a heading");
   }

@@ -60,6 +60,16 @@ void requireFinite(const geometry_msgs::Point& point, const std::string& field) 
   requireCoordinate(point.y, field + ".y");
 }
 
+void requireSendable(const Pose& pose, const std::string& field) {
+  requireFinite(pose, field);
+  requireFinite(pose.heading, field + ".heading");
+  requireFinite(pose.z, field + ".z");
+}
+
+void requireSendable(const std::vector<Pose>& poses, const std::string& field) {
+  for (std::size_t i = 0; i < poses.size(); ++i) requireSendable(poses[i], text(field, "[", i, "]"));
+}
+
 void requirePlace(const geometry_msgs::Point& point, const std::string& list, std::size_t index,
                   const std::string& field) {
   if (isCoordinate(point.x) && isCoordinate(point.y)) return;  // names take longer to make than points to check
@@ -101,7 +111,10 @@ void checkPoints(const std::vector<geometry_msgs::Point>& points, std::size_t lo
   if (points.size() < low) {
     throw InvalidRequest(text(field, " has ", points.size(), " elements; it must have ", low, " at least"));
   }
-  for (std::size_t i = 0; i < points.size(); ++i) requirePlace(points[i], field, i, "");
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    requirePlace(points[i], field, i, "");
+    if (!std::isfinite(points[i].z)) requireFinite(points[i].z, text(field, "[", i, "].z"));
+  }
 }
 
 void checkPolygon(const RoiPolygon& polygon, const std::string& field, const RequestLimits& limits) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "external_command/core/error.h"
+#include "support/refusal.h"
 
 namespace external_command {
 namespace {
@@ -34,6 +35,33 @@ TEST(Checks, RefuseCoordinatesOfNoMapAndNameTheField) {
       EXPECT_NE(std::string(error.what()).find("end_pose.y"), std::string::npos) << error.what();
     }
   }
+}
+
+TEST(Checks, LeaveNumbersThatNobodyReads) {
+  Pose pose = poseAt(1.0, 2.0);
+  pose.heading = kNan;
+  pose.z = kInfinity;
+  EXPECT_NO_THROW(requireFinite(pose, "end_pose"));
+  EXPECT_NO_THROW(requireSendable(poseAt(1.0, 2.0), "parking_spot_pose"));
+}
+
+TEST(Checks, RefuseNumbersThatGoOnWithTheCommandThoughNobodyUsesThem) {
+  for (const double value : {kNan, kInfinity, -kInfinity}) {
+    Pose turned = poseAt(1.0, 2.0), raised = poseAt(1.0, 2.0);
+    turned.heading = value;
+    raised.z = value;
+    EXPECT_NE(refusalOf([&] { requireSendable(turned, "parking_spot_pose"); }).find("parking_spot_pose.heading is "),
+              std::string::npos);
+    EXPECT_NE(refusalOf([&] {
+                requireSendable({poseAt(0.0, 0.0), raised}, "way_point");
+              }).find("way_point[1].z is "),
+              std::string::npos);
+    std::vector<geometry_msgs::Point> points(3);
+    points[2].z = value;
+    EXPECT_NE(refusalOf([&] { checkPoints(points, 2, "left_boundary"); }).find("left_boundary[2].z is "),
+              std::string::npos);
+  }
+  EXPECT_NO_THROW(checkPoints(std::vector<geometry_msgs::Point>(3), 2, "left_boundary"));
 }
 
 TEST(Checks, TakeATargetSpeedThatAVehicleDrivesAtOrThatIsNotGiven) {

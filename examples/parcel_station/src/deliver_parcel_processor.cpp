@@ -18,7 +18,7 @@ DeliverParcelProcessor::~DeliverParcelProcessor() { stopServing(); }
 
 void DeliverParcelProcessor::check(const DeliverParcelCommand& command) const {
   if (command.parcel_id.empty()) throw ec::InvalidRequest("parcel_id is empty; say which parcel to deliver");
-  ec::requireFinite(command.station, "station");
+  ec::requireSendable(command.station, "station");
   ec::requireTargetSpeed(command.target_speed);
 }
 

@@ -26,6 +26,11 @@ void requireSize(std::size_t size, std::size_t low, std::size_t high, const std:
 void requireFinite(const Pose& pose, const std::string& field);                   ///< and within kCoordinate
 void requireFinite(const geometry_msgs::Point& point, const std::string& field);  ///< the same; z is not looked at
 
+/// For what goes on with the command, to readers who need not know that it has no meaning: numbers that are not used
+/// must be finite, too.
+void requireSendable(const Pose& pose, const std::string& field);
+void requireSendable(const std::vector<Pose>& poses, const std::string& field);
+
 /// The same for one of many points, `list[index]field`.
 void requirePlace(const geometry_msgs::Point& point, const std::string& list, std::size_t index,
                   const std::string& field);
@@ -37,6 +42,7 @@ void requireFresh(const ros::Time& stamp, double max_age);
 void checkWayPoints(const std::vector<Pose>& way_points, bool is_start_pose_set, const RequestLimits& limits);
 void checkBlackList(const std::vector<LaneSegment>& lanes, const std::vector<std::string>& roads,
                     const RequestLimits& limits);
+/// Points that go on with the command: their z, which is not used, must be finite, too.
 void checkPoints(const std::vector<geometry_msgs::Point>& points, std::size_t low, const std::string& field);
 void checkPolygon(const RoiPolygon& polygon, const std::string& field, const RequestLimits& limits);
 void checkPolygons(const std::vector<RoiPolygon>& polygons, const std::string& field, const RequestLimits& limits);

@@ -110,6 +110,7 @@ void ZoneCoverCommandProcessor::check(const ZoneCoverCommand& command) const {
         "zone_cover_area_id and drivable_roi are both empty; give the id of an area of the map, or a polygon");
   }
   checkWayPoints(command.way_point, command.is_start_pose_set, context().params().requests);
+  requireSendable(command.way_point, "way_point");
   if (by_polygon && command.way_point.size() > (command.is_start_pose_set ? 1u : 0u)) {
     throw InvalidRequest("way_point needs lanes to drive on; with drivable_roi only a start can be given");
   }
