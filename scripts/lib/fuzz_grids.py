@@ -7,14 +7,19 @@ import threading
 import time
 
 import rospy
+import tf2_ros
+from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import OccupancyGrid
 
 import fuzz_bytes
 from answer_times import latest_answer
+from campaign import Periodic
 from external_command.client import CommandClient, ServiceUnavailable
 
 TOPIC = "/apollo/grid"
 SOUND_TIME = 4.0  # in which every caller gets past the checks of the grid [s]
+PERIOD = 0.2  # of what has to be fresh, and between two requests that may be answered "busy" [s]
+FIRST_FILE = 30.0  # [s]
 NUMBERS = [0.0, -1.0, 1e-9, 1e9, float("nan"), float("inf")]
 
 
@@ -68,19 +73,26 @@ class Grids:
 
     def mend(self):
         self._is_sound.set()
-        self._publisher.publish(sound_grid())
+        self.repeat()
+
+    def repeat(self):
+        """Grids are to be fresh; and a damaged one may have been on its way."""
+        if self._is_sound.is_set():
+            self._publisher.publish(sound_grid())
 
 
 def fuzz_grids(grids, end, findings):
     """Plans with grids that are damaged and sound in turn, until `end`."""
     client = CommandClient("apollo")
-    while time.monotonic() < end:
-        grids.damage()
-        call_with_grid(client, grids.chance, "a grid", findings)
-        sound_until = min(end, time.monotonic() + SOUND_TIME)
-        while time.monotonic() < sound_until:
-            grids.mend()  # again: a damaged one may have been on its way
-            call_with_grid(client, grids.chance, "a sound grid", findings)
+    with Periodic(PERIOD, grids.repeat):
+        while time.monotonic() < end:
+            grids.damage()
+            call_with_grid(client, grids.chance, "a grid", findings)
+            grids.mend()
+            sound_until = min(end, time.monotonic() + SOUND_TIME)
+            while time.monotonic() < sound_until:
+                call_with_grid(client, grids.chance, "a sound grid", findings)
+                time.sleep(PERIOD)
 
 
 def call_with_grid(client, chance, grid, findings):
@@ -97,27 +109,54 @@ def call_with_grid(client, chance, grid, findings):
         findings.add("%s answered late, with %s" % (service, grid), "after %.1f s: %s" % (duration, status.message))
 
 
-def fuzz_zone_files(seed, end, folder, findings):
-    """Damages the files of zones, and resumes these, until `end`."""
+def make_zone_file(grids, folder):
+    """{path: content} of the file of a zone that was begun; to be called before anybody sends STOP."""
+    broadcaster = tf2_ros.TransformBroadcaster()
+    client = CommandClient("apollo")
+    command = fuzz_bytes.example("zone_cover")
+    command.dry_run = False
+    grids.mend()
+    with Periodic(PERIOD, lambda: broadcaster.sendTransform(standing_vehicle())), Periodic(PERIOD, grids.repeat):
+        end = time.monotonic() + FIRST_FILE
+        while time.monotonic() < end:
+            client.call("zone_cover", command)
+            paths = glob.glob(os.path.join(folder, "*.zone"))
+            if paths:
+                break
+            time.sleep(PERIOD)
+    return {path: read(path) for path in paths}
+
+
+def standing_vehicle():
+    transform = TransformStamped()
+    transform.header.frame_id, transform.child_frame_id = "map", "base_link"
+    transform.header.stamp = rospy.Time.now()
+    transform.transform.rotation.w = 1.0
+    transform.transform.translation.x, transform.transform.translation.y = 90.0, 190.0
+    return transform
+
+
+def read(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def fuzz_zone_files(seed, end, files, findings):
+    """Damages the files of zones, {path: content}, and resumes these, until `end`. Most are dry runs: a STOP ends the
+    planning of others before the files are read."""
     chance = random.Random(seed)
     client = CommandClient("apollo")
     command = fuzz_bytes.example("zone_cover")
+    command.resume = True
     while time.monotonic() < end:
-        files = glob.glob(os.path.join(folder, "*.zone"))
-        command.resume = bool(files)
-        command.dry_run = False
+        for path, content in files.items():
+            with open(path, "wb") as file:
+                file.write(fuzz_bytes.damaged(content, chance))
+        command.dry_run = chance.random() < 0.9
         begin = time.monotonic()
         try:
             status = client.call("zone_cover", command).status
             findings.note("zone_cover with a zone file", status.error_code, time.monotonic() - begin)
         except ServiceUnavailable as error:
             findings.add("zone_cover gave no answer, with a zone file", error)
-        for path in files:
-            try:
-                with open(path, "rb") as file:
-                    content = file.read()
-                with open(path, "wb") as file:
-                    file.write(fuzz_bytes.damaged(content, chance))
-            except OSError:
-                pass  # it was replaced just now
-        time.sleep(0.2)
+        time.sleep(PERIOD)

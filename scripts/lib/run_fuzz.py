@@ -49,9 +49,12 @@ def fuzz_gateway(root, build_dir, minutes, seed, figures):
         from geometry_msgs.msg import TransformStamped
         from nav_msgs.msg import OccupancyGrid
         from tf2_msgs.msg import TFMessage
-        end = time.monotonic() + 60.0 * minutes
         findings = fuzz_requests.Findings()
         grids = fuzz_grids.Grids(seed)
+        zone_files = fuzz_grids.make_zone_file(grids, gateway.folder)
+        if not zone_files:
+            figures.fault("no zone was begun, and no file of one is damaged")
+        end = time.monotonic() + 60.0 * minutes
         topics = {"/apollo/planning/command_status": msg.CommandStatus(message="a report"),
                   "/apollo/planning/state": msg.PlanningState(scenario="LANE_FOLLOW"),
                   "/apollo/canbus/chassis": msg.Chassis(vin="a vin"),
@@ -68,7 +71,7 @@ def fuzz_gateway(root, build_dir, minutes, seed, figures):
                  (fuzz_bytes.call_damaged, (seed, end, findings)),
                  (fuzz_bytes.publish_bytes, (seed, end, topics, findings, grids.is_left_alone)),
                  (fuzz_grids.fuzz_grids, (grids, end, findings)),
-                 (fuzz_grids.fuzz_zone_files, (seed, end, gateway.folder, findings)),
+                 (fuzz_grids.fuzz_zone_files, (seed, end, zone_files, findings)),
                  (watch, (gateway, end, figures))]
         threads = [threading.Thread(target=job, args=arguments) for job, arguments in jobs]
         for thread in threads:
