@@ -158,8 +158,18 @@ class HostileGoalsTest(unittest.TestCase):
             self.plan_for_long(client, "there")
             client.cancel(stamp=rospy.Time(4000000000))
             self.assert_ended(client.end("there"), GoalStatus.PREEMPTED)
-            time.sleep(1.0)  # more than clocks may differ by
             self.plan_for_long(client, "to come", rospy.Time.now())
+            client.cancel("to come")
+            self.assert_ended(client.end("to come"), GoalStatus.PREEMPTED)
+
+    def test_a_cancel_by_a_clock_that_is_a_little_ahead_ends_goals_until_then(self):
+        with component():
+            client = self.planner()
+            until = rospy.Time.now() + rospy.Duration(0.4)
+            client.cancel(stamp=until)
+            client.send("before", planned_for_long(), until - rospy.Duration(0.1))
+            self.assert_ended(client.end("before"), GoalStatus.RECALLED)
+            self.plan_for_long(client, "after", until + rospy.Duration(0.1))
 
     def test_cancels_of_unknown_goals_and_goals_that_ended_are_forgotten(self):
         with component():

@@ -125,7 +125,8 @@ class BoundedActionServer : public actionlib::ActionServerBase<Action> {
     Base::cancelCallback(cancel);
     forgetEnded();
     const boost::recursive_mutex::scoped_lock lock(this->lock_);
-    this->last_cancel_ = std::min(this->last_cancel_, latestStamp());  // it would cancel goals that are still to come
+    // It would cancel goals that are still to come.
+    if (this->last_cancel_ > latestStamp()) this->last_cancel_ = ros::Time::now();
   }
 
   ros::Time latestStamp() const {
