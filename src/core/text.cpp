@@ -1,29 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "external_command/core/text.h"
 
+#include <cmath>
 #include <cstdio>
 
 namespace external_command {
 
 namespace {
 
-template <class... Args>
-std::string formatted(const char* format, Args... args) {
-  char buffer[160];
-  std::snprintf(buffer, sizeof(buffer), format, args...);
+constexpr double kLongest = 1e12;  // beyond that nobody reads a number digit by digit
+
+std::string fixed(double number, int decimals = 2) {
+  char buffer[40];
+  std::snprintf(buffer, sizeof(buffer), std::abs(number) < kLongest ? "%.*f" : "%.*g", decimals, number);
   return buffer;
 }
 
 }  // namespace
 
-std::string at(const Point2d& point) { return formatted("(%.2f, %.2f)", point.x(), point.y()); }
+std::string at(const Point2d& point) { return "(" + fixed(point.x()) + ", " + fixed(point.y()) + ")"; }
 
-std::string at(const Pose2d& pose) { return formatted("(%.2f, %.2f, %.3f)", pose.x, pose.y, pose.heading); }
+std::string at(const Pose2d& pose) {
+  return "(" + fixed(pose.x) + ", " + fixed(pose.y) + ", " + fixed(pose.heading, 3) + ")";
+}
 
-std::string metres(double length) { return formatted("%.2f m", length); }
+std::string metres(double length) { return fixed(length) + " m"; }
 
-std::string radians(double angle) { return formatted("%.2f rad", angle); }
+std::string radians(double angle) { return fixed(angle) + " rad"; }
 
-std::string seconds(double time) { return formatted("%.2f s", time); }
+std::string seconds(double time) { return fixed(time) + " s"; }
 
 }  // namespace external_command

@@ -20,8 +20,12 @@ TEST(Text, WritesPointsPosesAndLengths) {
 }
 
 TEST(Text, SurvivesAnyNumber) {
-  EXPECT_FALSE(at(Point2d(1e308, -1e308)).empty());
-  EXPECT_FALSE(metres(std::nan("")).empty());
+  EXPECT_EQ(at(Point2d(1e308, -1e308)), "(1e+308, -1e+308)");
+  EXPECT_EQ(at(Pose2d{-1e308, 1e12, 1e17}), "(-1e+308, 1e+12, 1e+17)");
+  EXPECT_EQ(radians(-1e308), "-1e+308 rad");
+  EXPECT_EQ(seconds(4294967295.0), "4294967295.00 s");
+  EXPECT_EQ(metres(std::nan("")), "nan m");
+  EXPECT_EQ(metres(-INFINITY), "-inf m");
 }
 
 }  // namespace
