@@ -212,7 +212,7 @@ class CommandClient:
             return rospy.wait_for_message(name, msg.Readiness, self._timeout)
         except rospy.ROSException as error:
             raise ServiceUnavailable("nothing on topic %s within %.1f s: is the gateway running in namespace %s?" %
-                                     (name, self._timeout, self._namespace)) from error
+                                     (name, self._timeout, self._namespace or "/")) from error
 
     def unmet(self, service=None):
         """The ReadinessConditions that are not met: of a service, "lane_follow", or of any. Raises ServiceUnavailable."""
@@ -229,6 +229,6 @@ class CommandClient:
             return rospy.ServiceProxy(name, service_class)(*request)
         except rospy.ROSException as error:
             raise ServiceUnavailable("no service %s within %.1f s: is the gateway running in namespace %s?" %
-                                     (name, self._timeout, self._namespace)) from error
+                                     (name, self._timeout, self._namespace or "/")) from error
         except (rospy.ServiceException, rospy.exceptions.TransportException) as error:
             raise ServiceUnavailable("the call of %s failed: %s" % (name, error)) from error

@@ -9,7 +9,7 @@ from external_command.command_line_commands import add_commands
 from external_command.commands import MAP_OBJECTS
 from external_command.completion import complete_by, ids_of, running_ids
 
-OK, FAILED, WRONG_LINE, NO_SERVICE, STILL_RUNNING, ENDED_BY_OTHERS, UNKNOWN_COMMAND = range(7)
+OK, FAILED, WRONG_LINE, NO_SERVICE, STILL_RUNNING, ENDED_BY_OTHERS, UNKNOWN_COMMAND, NOT_TOLD = range(8)
 EXIT_CODES = """exit code:
   0  accepted; with --wait, and of watch: FINISHED; of status: RUNNING or FINISHED; of why-not: nothing is missing
   1  refused, or ended as an error; of why-not: something is missing
@@ -18,6 +18,7 @@ EXIT_CODES = """exit code:
   4  it still runs after the seconds it was to be waited for
   5  it was cancelled, cleared or stopped, or a newer command took its place
   6  there is no such command
+  7  the output could not be written; what was asked for may have been done
 """
 
 

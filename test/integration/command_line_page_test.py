@@ -44,7 +44,7 @@ class CommandLinePageTest(unittest.TestCase):
         told = subprocess.run(["rosrun", "external_command", "external_command_client", "--help"],
                               stdout=subprocess.PIPE, check=True, timeout=TIMEOUT).stdout.decode()
         codes = re.findall(r"^  (\d)  (.+)$", told, re.MULTILINE)
-        self.assertEqual(len(codes), 7)
+        self.assertEqual(len(codes), 8)
         for number, meaning in re.findall(r"^\| (\d) \| (.+) \|$", page, re.MULTILINE):
             self.assertEqual(dict(codes)[number], meaning.replace("`", ""))
 

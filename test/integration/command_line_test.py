@@ -148,6 +148,30 @@ class CommandLineTest(unittest.TestCase):
             code, (answer,) = run_json(line)
             self.assertEqual((code, list(answer)), (3, ["error"]))
 
+    def test_tells_where_its_output_cannot_be_written_and_not_where_nobody_reads_on(self):
+        for words in ("lane-follow --to 300 195 --dry-run", "list lanes", "status 4711 --json", "map info"):
+            with self.subTest(words):
+                with open("/dev/full", "wb") as full:
+                    told = subprocess.run(CLIENT + words.split(), stdout=full, stderr=subprocess.PIPE, check=False,
+                                          timeout=TIMEOUT)
+                self.assertEqual((told.returncode, told.stderr.decode().splitlines()[-1:]),
+                                 (7, ["the output could not be written: [Errno 28] No space left on device"]))
+                self.assertNotIn(b"Traceback", told.stderr)
+                reader, writer = os.pipe()
+                os.close(reader)
+                told = subprocess.run(CLIENT + words.split(), stdout=writer, stderr=subprocess.PIPE, check=False,
+                                      timeout=TIMEOUT)
+                os.close(writer)
+                self.assertEqual((told.returncode, told.stderr), (7, b""))
+
+    def test_an_address_of_the_master_that_is_none_is_told(self):
+        for address in ("nonsense", "", "http://localhost:1"):
+            with self.subTest(address):
+                told = subprocess.run(CLIENT + ["status", "1"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False,
+                                      timeout=TIMEOUT, env=dict(os.environ, ROS_MASTER_URI=address))
+                self.assertEqual((told.returncode, told.stderr.decode()),
+                                 (3, "no ROS master at '%s' (ROS_MASTER_URI)\n" % address))
+
 
 if __name__ == "__main__":
     rospy.init_node("command_line_test")
