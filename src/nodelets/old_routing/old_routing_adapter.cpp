@@ -21,11 +21,12 @@ constexpr std::size_t kMaxWaiting = 10;
 constexpr std::uint32_t kMaxArriving = 100;  // roscpp drops without a word, so that what is too much is to get here
 
 template <class Service, class Command>
-CommandStatus call(ros::NodeHandle& nh, const std::string& name, const Command& command, const ros::M_string& header) {
+OldRoutingAdapter::Answer call(ros::NodeHandle& nh, const std::string& name, const Command& command,
+                               const ros::M_string& header) {
   ros::ServiceClient client = nh.serviceClient<Service>(name, false, header);
   Service service;
   service.request.command = command;
-  if (client.call(service)) return service.response.status;
+  if (client.call(service)) return {service.response.status, service.response.report.warnings};
   if (!client.exists()) {
     throw NotReady(text("there is no service ", client.getService(),
                         "; is the component running, with its processor in the list ~processors?"));
@@ -109,17 +110,21 @@ void OldRoutingAdapter::carryOutNext() {
     next = waiting_.front();
     waiting_.pop_front();
   }
-  CommandStatus status;
+  Answer answer;
   try {
-    status = carryOut(next);
+    answer = carryOut(next);
   } catch (...) {
-    status = statusFrom(std::current_exception(), 0);
+    answer.status = statusFrom(std::current_exception(), 0);
   }
+  const CommandStatus& status = answer.status;
   if (status.status == CommandStatus::ERROR) return refuse(*next.request, status);
   logLater(LogLevel::kInfo, text(getName(), ": the request became command ", status.command_id, ": ", status.message));
+  for (const std::string& warning : answer.warnings) {  // nobody is answered
+    logLater(LogLevel::kWarn, text(getName(), ": command ", status.command_id, ": ", warning));
+  }
 }
 
-CommandStatus OldRoutingAdapter::carryOut(const Waiting& waiting) {
+OldRoutingAdapter::Answer OldRoutingAdapter::carryOut(const Waiting& waiting) {
   const RoutingRequest& request = *waiting.request;
   const ros::M_string header = arrivalHeader(context().gate(), waiting.arrival, waiting.time);
   if (request.dead_end_info.dead_end_routing_type != DeadEndInfo::ROUTING_OTHER) {

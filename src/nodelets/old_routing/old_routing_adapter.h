@@ -9,6 +9,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "external_command/CommandStatus.h"
 #include "external_command/RoutingRequest.h"
@@ -24,6 +25,12 @@ class OldRoutingAdapter : public CommandProcessor {
  public:
   OldRoutingAdapter() = default;
   ~OldRoutingAdapter() override;
+
+  /// What a service says of a command.
+  struct Answer {
+    CommandStatus status;
+    std::vector<std::string> warnings;
+  };
 
  private:
   void start() override;
@@ -45,7 +52,7 @@ class OldRoutingAdapter : public CommandProcessor {
 
   /// Calls the service that the request is for.
   /// @return the service's answer. @throws Error  there is none, or the request makes no command.
-  CommandStatus carryOut(const Waiting& waiting);
+  Answer carryOut(const Waiting& waiting);
 
   void refuse(const RoutingRequest& request, const CommandStatus& status);
 
