@@ -104,7 +104,7 @@ class MoveBaseTest(unittest.TestCase):
 
     def test_goals_that_cannot_be_driven_are_aborted_with_the_reason(self):
         self.assert_aborted(pose(5000.0, 5000.0), "end_pose", "5000")
-        self.assert_aborted(pose(130.0, 195.0, frame="no_such_frame"), "no_such_frame")
+        self.assert_aborted(pose(130.0, 195.0, frame="no_such_frame"), "target_pose.header.frame_id 'no_such_frame'")
         self.assert_aborted(pose(130.0, float("nan")), "target_pose.pose.position.y", "nan")
         self.assert_aborted(pose(130.0, 195.0, heading=math.pi), "end_pose")
         tilted, empty = pose(130.0, 195.0), pose(130.0, 195.0)

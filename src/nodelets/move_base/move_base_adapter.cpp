@@ -233,7 +233,11 @@ Pose2d MoveBaseAdapter::toGoal(const geometry_msgs::PoseStamped& pose, const std
   requireFinite(pose.pose.position, name + ".pose.position");
   const Pose2d given{pose.pose.position.x, pose.pose.position.y,
                      has_heading ? headingOf(pose.pose.orientation, name) : 0.0};
-  return compose(context().vehiclePose().ofFrame(pose.header.frame_id), given);
+  try {
+    return compose(context().vehiclePose().ofFrame(pose.header.frame_id), given);
+  } catch (const InvalidRequest& error) {
+    throw InvalidRequest(text(name, ".", error.what()));  // it names header.frame_id, of which there are several
+  }
 }
 
 }  // namespace external_command
