@@ -119,7 +119,7 @@ void checkPoints(const std::vector<geometry_msgs::Point>& points, std::size_t lo
 
 void checkPolygon(const RoiPolygon& polygon, const std::string& field, const RequestLimits& limits) {
   requireSize(polygon.points.size(), 3, limits.max_polygon_points, field + ".points", "max_polygon_points");
-  checkPoints(polygon.points, 3, field + ".points");
+  for (std::size_t i = 0; i < polygon.points.size(); ++i) requirePlace(polygon.points[i], field + ".points", i, "");
 }
 
 void checkPolygons(const std::vector<RoiPolygon>& polygons, const std::string& field, const RequestLimits& limits) {

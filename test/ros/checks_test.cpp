@@ -43,6 +43,10 @@ TEST(Checks, LeaveNumbersThatNobodyReads) {
   pose.z = kInfinity;
   EXPECT_NO_THROW(requireFinite(pose, "end_pose"));
   EXPECT_NO_THROW(requireSendable(poseAt(1.0, 2.0), "parking_spot_pose"));
+  RoiPolygon polygon;
+  polygon.points.resize(3);
+  polygon.points[2].z = kNan;
+  EXPECT_NO_THROW(checkPolygon(polygon, "drivable_roi", {}));
 }
 
 TEST(Checks, RefuseNumbersThatGoOnWithTheCommandThoughNobodyUsesThem) {

@@ -44,6 +44,7 @@ void checkBlackList(const std::vector<LaneSegment>& lanes, const std::vector<std
                     const RequestLimits& limits);
 /// Points that go on with the command: their z, which is not used, must be finite, too.
 void checkPoints(const std::vector<geometry_msgs::Point>& points, std::size_t low, const std::string& field);
+/// Their z is ignored, by whoever reads them.
 void checkPolygon(const RoiPolygon& polygon, const std::string& field, const RequestLimits& limits);
 void checkPolygons(const std::vector<RoiPolygon>& polygons, const std::string& field, const RequestLimits& limits);
 
