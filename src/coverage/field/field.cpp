@@ -17,6 +17,7 @@ constexpr double kMaxCells = 2.5e6;      ///< of the grid; sets its finest cell
 constexpr double kCellsPerSwath = 12.0;  ///< across
 constexpr double kMaxExtent = 20e3;      ///< of the area [m]
 constexpr double kMostWidths = 1600.0;  ///< from corner to corner: memory and time of a look at the swaths grow with it
+constexpr double kKept = 0.99;          ///< share of the goal, at least, that lies within the free part
 constexpr double kMostShift = 1.5;      ///< [swath widths]
 constexpr double kUnwanted = 5000.0;    ///< price of a change of gear for a vehicle that is not to reverse [m]
 
@@ -161,7 +162,11 @@ void Field::setGoal() {
     const auto smaller = [](const auto& a, const auto& b) { return areaOf(only(a)) < areaOf(only(b)); };
     part = only(*std::max_element(core.begin(), core.end(), smaller));
   }
-  goal_ = intersection(grown(part, tool, checkpoint()), free_);
+  const shapes::Shapes swept = grown(part, tool, checkpoint());
+  goal_ = intersection(swept, free_);
+  // It lies within the free part but for rounding, so that their borders run along each other: Boost.Geometry may lose
+  // the area then.
+  if (areaOf(goal_) < kKept * areaOf(swept)) goal_ = swept;
   workable_ = partAt(free_, part.front().outer().front());
 }
 

@@ -158,6 +158,8 @@ class LapBuilder {
       }
       ways_[i] = search.find(before, corners_[i], after);
       if (ways_[i]) ways_[i]->leave += entered;
+      // A lone side that is left before it is entered again is no lap, but a line.
+      if (next == i && ways_[i] && !ways_[i]->fills && ways_[i]->leave <= ways_[i]->enter) ways_[i].reset();
     }
   }
 
