@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Areas that are large, or have many corners.
+// Areas that are large, or have many corners or narrow parts.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -66,6 +66,24 @@ TEST(CoverageOfManyCorners, EndsSoonAfterItIsCancelled) {
 TEST(CoverageOfManyCorners, EndsWhenItsTimeIsUsedUp) {
   EXPECT_LT(overrun(spiral(), 1.5, 1.6), 3.0);
   EXPECT_LT(overrun(star(), 0.5, 0.6), 3.0);
+}
+
+/// A strip of 12 m, and fingers of 9 m that reach 40 m up from it.
+TEST(CoverageOfNarrowFingers, LeavesLittle) {
+  constexpr int kFingers = 6;
+  std::vector<Point2d> points{{0, 0}};
+  for (int i = 0; i < kFingers; ++i) {
+    const double x = 14.0 * i;
+    for (const Point2d& point : std::vector<Point2d>{{x, 12}, {x, 52}, {x + 9, 52}, {x + 9, 12}}) {
+      points.push_back(point);
+    }
+  }
+  points.emplace_back(points.back().x(), 0.0);
+  CoverageParams wide = params();
+  wide.swath_width = 4.0;
+  const CoverageResult result =
+      CoveragePlanner(tractor(), wide).plan({Polygon(points, "comb"), {}}, Pose2d{20.0, 6.0, 0.0}, {}, {});
+  EXPECT_GT(result.coverage_ratio, 0.965);
 }
 
 TEST(CoverageOfLargeAreas, SweepsAlongTheLongSideThoughTheToolIsNarrow) {

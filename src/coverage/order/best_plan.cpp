@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kTimeForTrying = 0.4;     ///< share of the budget after which no further plan is tried
 constexpr double kTimeForSettling = 0.65;  ///< the same for settling one
+constexpr double kHopeless = 0.93;         ///< share swept below which only much dearer area can help
 constexpr double kHole = 60.0;             ///< squares of a swath's width that take as long to plan as a hole
 constexpr double kSmallHole = 20.0;        ///< the same of one that swaths bend round
 constexpr double kEqual = 1e-9;            ///< plans with costs as near as that are the same
@@ -79,11 +80,20 @@ class Contest {
     double swing = 0.0;  ///< of its laps: whether a way leads to laps near the border only settling shows
   };
 
-  /// Dearer area first as long as too much stays unswept; then cheaper area as long as that makes it better.
+  /// Dearer area first as long as too much stays unswept; then cheaper area as long as that makes it better. Where
+  /// far too much does, from the dearest down.
   void tryPrices() {
     const auto& prices = effort_.prices;
     std::size_t last = effort_.first;
-    while (last < prices.size() && (tryPrice(prices[last]) || isFarShort()) && isShort() && isTimeLeft()) ++last;
+    bool is_better = tryPrice(prices[last]);
+    if (isHopeless()) {
+      for (std::size_t i = prices.size(); --i > last && isTimeLeft() && tryPrice(prices[i]);) {
+      }
+      return;
+    }
+    while (last + 1 < prices.size() && (is_better || isFarShort()) && isShort() && isTimeLeft()) {
+      is_better = tryPrice(prices[++last]);
+    }
     for (std::size_t i = effort_.first; i-- > 0 && last == effort_.first;) {
       if (!tryPrice(prices[i])) break;
     }
@@ -104,19 +114,21 @@ class Contest {
 
   bool isShort() const { return bestShare() < field_.params().target_coverage; }
   bool isFarShort() const { return bestShare() < kLowCoverage; }
+  bool isHopeless() const { return bestShare() < kHopeless; }
 
   /// @return whether that is the best so far, with its swing.
   bool tryPrice(double share) {
     const double price = share / field_.width();
     bool improved = false;
+    tried_.clear();
     std::vector<Draft> drafts = makeDrafts(field_, empty_, price, effort_.drafts);
     for (Draft& laps : draftsOfLaps(field_, empty_, price)) drafts.insert(drafts.begin(), std::move(laps));
     for (const Draft& draft : drafts) {
       for (const double choosy : effort_.choosy) {
         if (!entries_.empty() && field_.timeUsed() > kTimeForTrying) return false;
-        improved =
-            enter(planOf(field_, worksOf(field_, draft, price, choosy), price, &routes_), draft.swing) || improved;
+        improved = tryWorks(worksOf(field_, draft, price, choosy), price, draft.swing) || improved;
       }
+      if (isHopeless() && share < effort_.prices.back()) break;
       improved = tryParts(draft, price) || improved;
     }
     return improved;
@@ -128,7 +140,18 @@ class Contest {
     const auto [parts, is_new] = parts_.try_emplace({draft.laps, draft.swing});
     if (is_new) parts->second = partsOf(field_, draft, price);
     if (parts->second.size() < 2) return false;
-    return enter(planOf(field_, worksOf(field_, draft, price, parts->second), price, &routes_), draft.swing);
+    return tryWorks(worksOf(field_, draft, price, parts->second), price, draft.swing);
+  }
+
+  /// Different drafts, and swaths chosen in different ways, often come to the same works.
+  /// @return whether that is the best so far, with its swing.
+  bool tryWorks(std::vector<Work> works, double price, double swing) {
+    const auto isSame = [&](const std::vector<Work>& other) {
+      return std::equal(works.begin(), works.end(), other.begin(), other.end());
+    };
+    if (std::any_of(tried_.begin(), tried_.end(), isSame)) return false;
+    tried_.push_back(works);
+    return enter(planOf(field_, std::move(works), price, &routes_), swing);
   }
 
   /// @return whether that is the best so far, with its swing.
@@ -154,6 +177,7 @@ class Contest {
   Effort effort_;
   std::map<std::pair<int, double>, std::vector<Part>> parts_;  ///< by laps and swing: the price hardly matters
   std::vector<Entry> entries_;                                 ///< the best ones, best first
+  std::vector<std::vector<Work>> tried_;                       ///< for the present price
 };
 
 }  // namespace

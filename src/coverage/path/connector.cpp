@@ -15,10 +15,11 @@ namespace external_command {
 namespace {
 
 constexpr std::array<double, 2> kBacked = {0.4, 1.0};  ///< shares of a swath that are backed along
-constexpr double kRoom = 8.0;              ///< around both ends that a search looks at first, in turning radii
-constexpr double kMostGearPrice = 1000.0;  ///< that a search takes [m]
-constexpr double kMostSearching = 0.5;     ///< [s]
-constexpr unsigned kMostSteps = 2500;      ///< of a search; a swath that is harder to get to is not worth it
+constexpr double kRoom = 8.0;               ///< around both ends that a search looks at first, in turning radii
+constexpr double kMostGearPrice = 1000.0;   ///< that a search takes [m]
+constexpr double kMostSearching = 0.5;      ///< [s]
+constexpr unsigned kMostSteps = 2500;       ///< of a search; a swath that is harder to get to is not worth it
+constexpr double kTimeForSearching = 0.92;  ///< share of the budget after which only short turns are looked for
 
 }  // namespace
 
@@ -46,6 +47,7 @@ std::optional<Curve> Connector::connect(const Curve* driven, const Pose2d& from,
 std::optional<Curve> Connector::turn(const Pose2d& from, const Pose2d& to) const {
   field_.poll();
   if (auto curve = shortTurn(field_, from, to)) return curve;
+  if (field_.timeUsed() > kTimeForSearching) return std::nullopt;
   if (auto curve = shiftedTurn(field_, from, to)) return curve;
   return search(from, to);
 }

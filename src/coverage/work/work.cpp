@@ -43,6 +43,22 @@ void Work::addClosed(const Curve& loop, double spacing) {
   curves_.push_back(loop);
 }
 
+bool Work::operator==(const Work& other) const {
+  const auto isSamePose = [](const Pose2d& a, const Pose2d& b) {
+    return a.x == b.x && a.y == b.y && a.heading == b.heading;
+  };
+  const auto isSameArc = [](const ArcSegment& a, const ArcSegment& b) {
+    return a.length == b.length && a.kappa == b.kappa;
+  };
+  const auto isSameCurve = [&](const Curve& a, const Curve& b) {
+    return isSamePose(a.start, b.start) &&
+           std::equal(a.arcs.begin(), a.arcs.end(), b.arcs.begin(), b.arcs.end(), isSameArc);
+  };
+  return lap == other.lap && is_ring == other.is_ring &&
+         std::equal(starts_.begin(), starts_.end(), other.starts_.begin(), other.starts_.end(), isSamePose) &&
+         std::equal(curves_.begin(), curves_.end(), other.curves_.begin(), other.curves_.end(), isSameCurve);
+}
+
 Curve Work::curveOf(std::size_t way) const {
   const Entry& entry = entries_[way];
   const Curve& curve = curves_[entry.curve];

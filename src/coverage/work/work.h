@@ -28,6 +28,9 @@ class Work {
   Curve curveOf(std::size_t way) const;
   double length() const { return curves_.front().length(); }
 
+  /// Whether it has the same ways, in the same order.
+  bool operator==(const Work& other) const;
+
   /// Whether way 1 is way 0 driven from the other end.
   bool isReversible() const { return reversible_; }
 
