@@ -55,7 +55,7 @@ class Contest {
  public:
   explicit Contest(const Field& field)
       : field_(field),
-        routes_(field),
+        guide_(field),
         empty_(field.makeGrid()),
         goal_(std::max(empty_.area(kGoal, 0), 1e-9)),
         effort_(effortFor(sizeOf(field, goal_))) {}
@@ -65,7 +65,7 @@ class Contest {
     Entry best;
     for (Entry& entry : entries_) {
       if (!best.plan.steps.empty() && field_.timeUsed() > kTimeForSettling) break;
-      Plan plan = settled(field_, std::move(entry.plan), effort_.rounds, &routes_);
+      Plan plan = settled(field_, std::move(entry.plan), effort_.rounds, &guide_);
       const double cost = costOf(field_, plan.effort, plan.length, plan.covered, goal_);
       const bool is_better = best.plan.steps.empty() || (!plan.steps.empty() && cost < best.cost);
       if (is_better) best = {std::move(plan), cost, entry.swing};
@@ -151,7 +151,7 @@ class Contest {
     };
     if (std::any_of(tried_.begin(), tried_.end(), isSame)) return false;
     tried_.push_back(works);
-    return enter(planOf(field_, std::move(works), price, &routes_), swing);
+    return enter(planOf(field_, std::move(works), price, &guide_), swing);
   }
 
   /// @return whether that is the best so far, with its swing.
@@ -171,7 +171,7 @@ class Contest {
   }
 
   const Field& field_;
-  Routes routes_;
+  Guide guide_;
   CoverageGrid empty_;
   double goal_;
   Effort effort_;

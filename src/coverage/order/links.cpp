@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coverage/path/connector.h"
 #include "coverage/path/turns.h"
 
 namespace external_command {
@@ -21,8 +20,8 @@ constexpr double kRoomStep = 0.25;    ///< between places looked at [turning rad
 
 }  // namespace
 
-Links::Links(const Field& field, const std::vector<Work>& works, Routes* routes)
-    : field_(field), works_(works), routes_(*routes) {}
+Links::Links(const Field& field, const std::vector<Work>& works, Guide* guide)
+    : field_(field), works_(works), guide_(*guide) {}
 
 std::uint64_t Links::idOf(const Step* from, const Step* to) {
   const auto id = [](const Step* step) {
@@ -44,7 +43,7 @@ Links::Cost Links::guess(const Pose2d& from, const Pose2d& to) {
     return Cost{static_cast<float>(price), static_cast<float>(length), true};
   };
   const double straight = (to.position() - from.position()).norm();
-  const double detour = routes_.distance(from.position(), to.position()) - straight;
+  const double detour = guide_.routes.distance(from.position(), to.position()) - straight;
   const double shortest = reedsSheppLength(from, to, field_.radius());
   const double reversing = shortest + 2.0 * field_.gearPrice();
   const std::vector<SteeringCurve> forward = dubinsCurves(from, to, field_.radius());
@@ -76,7 +75,7 @@ bool Links::hasRoom(const Pose2d& from, const SteeringCurve& turn) const {
     for (int i = 1; i <= n; ++i) {
       const Pose2d pose = advance(begin, arc, length * i / n);
       const Point2d ahead = unitVector(pose.heading);
-      if (!routes_.isOpen(pose.position() + (arc.length > 0.0 ? nose : tail) * ahead)) return false;
+      if (!guide_.routes.isOpen(pose.position() + (arc.length > 0.0 ? nose : tail) * ahead)) return false;
     }
     begin = advance(begin, arc);
   }
@@ -89,7 +88,7 @@ bool Links::settle(const Step* from, const Step* to) {
   if (!is_new) return false;
   const std::optional<Curve> driven = from == nullptr ? std::nullopt : std::optional<Curve>(curveOf(*from));
   std::optional<Curve>& way = entry->second;
-  way = Connector(field_).connect(driven ? &*driven : nullptr, beginOf(from), curveOf(*to));
+  way = guide_.connector.connect(driven ? &*driven : nullptr, beginOf(from), curveOf(*to));
   const double guessed = static_cast<double>(costOf(from, to).price), length = way ? way->length() : kNoWay;
   const double found = length + (way ? field_.gearPrice() * way->gearChangesBetween() : 0.0);
   known_[idOf(from, to)] = {static_cast<float>(found), static_cast<float>(length), false};

@@ -8,9 +8,18 @@
 
 #include "coverage/field/field.h"
 #include "coverage/field/routes.h"
+#include "coverage/path/connector.h"
 #include "coverage/work/work.h"
 
 namespace external_command {
+
+/// How to get from place to place in a field; remembered for all plans that are made for it.
+struct Guide {
+  explicit Guide(const Field& field) : routes(field), connector(field) {}
+
+  Routes routes;
+  Connector connector;
+};
 
 /// A piece of work, and which of its ways is taken.
 struct Step {
@@ -25,7 +34,7 @@ class Links {
   static constexpr double kNoWay = 1e5;  ///< price of a way that was not found [m]
 
   /// `works` may grow at its end.
-  Links(const Field& field, const std::vector<Work>& works, Routes* routes);
+  Links(const Field& field, const std::vector<Work>& works, Guide* guide);
 
   const Field& field() const { return field_; }
   const Pose2d& startOf(const Step& step) const { return works_[step.work].startOf(step.way); }
@@ -82,7 +91,7 @@ class Links {
 
   const Field& field_;
   const std::vector<Work>& works_;
-  Routes& routes_;
+  Guide& guide_;
   Curve curveOf(const Step& step) const { return works_[step.work].curveOf(step.way); }
   Pose2d beginOf(const Step* from) const { return from == nullptr ? *field_.start() : endOf(*from); }
 

@@ -26,10 +26,10 @@ constexpr double kGapTurn = 3.0;          ///< the same in the search for swaths
 
 class Planner {
  public:
-  Planner(const Field& field, Plan plan, Routes* routes)
+  Planner(const Field& field, Plan plan, Guide* guide)
       : field_(field),
         plan_(std::move(plan)),
-        links_(field, plan_.works, routes),
+        links_(field, plan_.works, guide),
         tally_(field.makeGrid(), field.width()),
         goal_(std::max(tally_.grid().area(kGoal, 0), 1e-9)) {}
 
@@ -311,15 +311,15 @@ class Planner {
 
 }  // namespace
 
-Plan planOf(const Field& field, std::vector<Work> works, double price, Routes* routes) {
+Plan planOf(const Field& field, std::vector<Work> works, double price, Guide* guide) {
   Plan plan;
   plan.works = std::move(works);
   plan.price = price;
-  return Planner(field, std::move(plan), routes).make();
+  return Planner(field, std::move(plan), guide).make();
 }
 
-Plan settled(const Field& field, Plan plan, int rounds, Routes* routes) {
-  return Planner(field, std::move(plan), routes).settle(rounds);
+Plan settled(const Field& field, Plan plan, int rounds, Guide* guide) {
+  return Planner(field, std::move(plan), guide).settle(rounds);
 }
 
 }  // namespace external_command

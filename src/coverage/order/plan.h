@@ -34,12 +34,12 @@ double costOf(const Field& field, double effort, double length, double covered, 
 
 /// Orders `works`; then leaves out what costs more than it brings, and puts in swaths that bring more than they cost.
 /// @param price  of a square metre that is not swept [m/m^2].
-Plan planOf(const Field& field, std::vector<Work> works, double price, Routes* routes);
+Plan planOf(const Field& field, std::vector<Work> works, double price, Guide* guide);
 
 /// The plan with the ways between its steps worked out, and changed where those turn out longer than they looked
 /// (lazy evaluation of edges, as in C. Dellin and S. Srinivasa 2016).
 /// @param rounds  of changes, at most.
-Plan settled(const Field& field, Plan plan, int rounds, Routes* routes);
+Plan settled(const Field& field, Plan plan, int rounds, Guide* guide);
 
 /// The best of several plans, with more and fewer laps, and for higher and lower prices of what is not swept.
 Plan bestPlan(const Field& field);

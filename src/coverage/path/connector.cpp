@@ -23,7 +23,7 @@ constexpr double kTimeForSearching = 0.92;  ///< share of the budget after which
 
 }  // namespace
 
-std::optional<Curve> Connector::connect(const Curve* driven, const Pose2d& from, const Curve& next) const {
+std::optional<Curve> Connector::connect(const Curve* driven, const Pose2d& from, const Curve& next) {
   if (driven == nullptr && !field_.isFree(from)) return leave(from, next.start);
   if (auto curve = turn(from, next.start)) return curve;
   for (const double share : kBacked) {
@@ -44,8 +44,15 @@ std::optional<Curve> Connector::connect(const Curve* driven, const Pose2d& from,
   return std::nullopt;
 }
 
-std::optional<Curve> Connector::turn(const Pose2d& from, const Pose2d& to) const {
+std::optional<Curve> Connector::turn(const Pose2d& from, const Pose2d& to) {
   field_.poll();
+  const std::array<double, 6> ends{from.x, from.y, from.heading, to.x, to.y, to.heading};
+  const auto known = turns_.find(ends);
+  if (known != turns_.end()) return known->second;
+  return turns_.emplace(ends, newTurn(from, to)).first->second;
+}
+
+std::optional<Curve> Connector::newTurn(const Pose2d& from, const Pose2d& to) const {
   if (auto curve = shortTurn(field_, from, to)) return curve;
   if (field_.timeUsed() > kTimeForSearching) return std::nullopt;
   if (auto curve = shiftedTurn(field_, from, to)) return curve;
