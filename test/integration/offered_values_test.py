@@ -36,6 +36,7 @@ OFFERED = {
     "external_command/limits/max_goal_distance": [0.0, 2000.0],
     "external_command/limits/max_speed": [0.0, 5.0],
     "external_command/require_all": [True, False],
+    "external_command/diagnostics_use_fqn": [False, True],
     "external_command/routing/refuse_undrivable": [False, True],
     "external_command/routing/max_path_start_distance": [0.0, 500.0],
     "lane_follow_command_processor/actions": [True, False],
