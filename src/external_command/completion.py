@@ -32,11 +32,11 @@ def running_ids(prefix, parsed_args, **_):
 
 
 def _offered(parsed_args, ask, prefix):
-    import rosgraph
     import rospy
 
     from external_command.client import CommandClient, CommandError, ServiceUnavailable
-    if not rosgraph.is_master_online():
+    from external_command.master import missing_master
+    if missing_master():
         return []
     rospy.init_node("external_command_completion", anonymous=True, disable_signals=True, log_level=rospy.FATAL)
     try:
