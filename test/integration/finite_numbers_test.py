@@ -13,8 +13,7 @@ from geometry_msgs.msg import Point
 import support
 from external_command.client import CommandClient, pose, polygon
 from external_command.msg import (CommandStatus, FreeSpaceCommand, LaneFollowCommand, LaneSegment, PathFollowCommand,
-                                  PlanningCommand, Pose,
-                                  PreciseParkingCommand, ValetParkingCommand, ZoneCoverCommand)
+                                  PlanningCommand, Pose, PreciseParkingCommand, ValetParkingCommand, ZoneCoverCommand)
 
 FIELD = polygon([(90.0, 185.0), (130.0, 185.0), (130.0, 225.0), (90.0, 225.0)])
 HOLE = polygon([(120.0, 210.0), (124.0, 210.0), (124.0, 214.0), (120.0, 214.0)])
