@@ -26,6 +26,7 @@ EC_DEBIAN_RUN_PACKAGES=(
 EC_DEBIAN_TEST_PACKAGES=(
   catkin-lint libboost-program-options-dev libgtest-dev librostest-dev python3-rostest
   python3-numpy python3-rosnode python3-rosparam python3-rospkg python3-rostopic
+  python3-rosunit
   rviz  # what demo.launch starts
   librviz-dev  # its panel is built where it is, and with it ec_qt_package
 )
@@ -46,7 +47,7 @@ EC_NOETIC_RUN_PACKAGES=(
 )
 EC_NOETIC_TEST_PACKAGES=(
   libboost-program-options-dev libgtest-dev python3-catkin-lint python3-numpy python3-rospkg
-  ros-noetic-rosnode ros-noetic-rosparam ros-noetic-rostest ros-noetic-rostopic
+  ros-noetic-rosnode ros-noetic-rosparam ros-noetic-rostest ros-noetic-rostopic ros-noetic-rosunit
   ros-noetic-rviz
 )
 

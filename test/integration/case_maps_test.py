@@ -78,7 +78,7 @@ class DrawnMap:
         self._file.close()
 
 
-class CaseMapsTest(unittest.TestCase):
+class CaseMapsTest(support.TestCase):
     def setUp(self):
         self.vehicle = Localization(0.0, 0.0)
         self.vehicle.start()

@@ -9,7 +9,6 @@ import select
 import signal
 import subprocess
 import time
-import unittest
 
 import rospy
 import rostest
@@ -35,7 +34,7 @@ def run_json(line):
     return code, [json.loads(text) for text in out.splitlines()]
 
 
-class CommandLineTest(unittest.TestCase):
+class CommandLineTest(support.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.client = CommandClient("apollo", support.DEADLINE)

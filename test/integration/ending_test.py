@@ -6,7 +6,6 @@ import random
 import signal
 import threading
 import time
-import unittest
 
 import rosgraph
 import rospy
@@ -36,7 +35,7 @@ def is_registered(service):
         return False
 
 
-class EndingTest(unittest.TestCase):
+class EndingTest(support.TestCase):
     def test_ends_in_order_when_it_is_idle(self):
         for number in (signal.SIGINT, signal.SIGTERM):
             with self.subTest(number), component([LANE_FOLLOW]) as started:

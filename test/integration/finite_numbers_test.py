@@ -3,7 +3,6 @@
 """Numbers that are not finite: refused by name where they are read or sent on, left alone where nobody reads them."""
 import copy
 import math
-import unittest
 
 import genpy
 import rospy
@@ -62,7 +61,7 @@ def numbers(message, path=""):
                     yield from numbers(item, "%s[%d]." % (own, i))
 
 
-class FiniteNumbersTest(unittest.TestCase):
+class FiniteNumbersTest(support.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.client = CommandClient(rospy.get_namespace())

@@ -7,7 +7,6 @@ import struct
 import sys
 import threading
 import time
-import unittest
 import urllib.request
 
 import genpy
@@ -47,7 +46,7 @@ def counts_in(service):
             yield whole[:at] + struct.pack("<I", 100000000) + whole[at + 4:]
 
 
-class HostileRequestsTest(unittest.TestCase):
+class HostileRequestsTest(support.TestCase):
     def assert_refused(self, status, *words):
         self.assertEqual(status.error_code, msg.CommandStatus.INVALID_REQUEST, support.describe(status))
         for word in words:

@@ -7,7 +7,6 @@ import subprocess
 import tempfile
 import textwrap
 import time
-import unittest
 
 import rosgraph
 import rospy
@@ -30,7 +29,7 @@ def component(processors, others=None, environment=None, **parameters):
     return Component(NAMESPACE, dict(others or {}, external_command=own), environment)
 
 
-class LoadingTest(unittest.TestCase):
+class LoadingTest(support.TestCase):
     def assert_stops(self, started, *words):
         with started:
             code = started.wait_for_end()

@@ -3,7 +3,6 @@
 """Commands whose paths are planned: free space, valet and precise parking, zone cover; driven by the simulated vehicle."""
 import math
 import shutil
-import unittest
 
 import rospy
 import rostest
@@ -33,7 +32,7 @@ def pose(x, y, heading):
     return Pose(x=x, y=y, heading=heading, has_heading=True)
 
 
-class ManoeuvresTest(unittest.TestCase):
+class ManoeuvresTest(support.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.buffer = tf2_ros.Buffer()

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """What is missing is named, and what does not need it works."""
-import unittest
 
 import rospy
 import rostest
@@ -42,7 +41,7 @@ def commands_from(place):
     return {kind: lambda kind=kind, **fields: call(kind, **fields) for kind in kinds}
 
 
-class NotReadyTest(unittest.TestCase):
+class NotReadyTest(support.TestCase):
     def test_says_that_no_map_is_loaded(self):
         status = lane_follow("without_map", end_pose=EAST_END)
         self.assertEqual(status.error_code, CommandStatus.NOT_READY, support.describe(status))

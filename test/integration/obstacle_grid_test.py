@@ -3,7 +3,6 @@
 """The obstacle grid as the planners take it: what is inside it, unknown, beyond it, old, and what is no grid."""
 import math
 import os
-import unittest
 
 import rospkg
 import rospy
@@ -84,7 +83,7 @@ def commands():
         "zone_cover": ZoneCoverCommand(zone_cover_area_id="yard", swath_width=5.0, **start)}
 
 
-class ObstacleGridTest(unittest.TestCase):
+class ObstacleGridTest(support.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.publisher = rospy.Publisher(GRID, OccupancyGrid, queue_size=1, latch=True)
@@ -162,21 +161,29 @@ class ObstacleGridTest(unittest.TestCase):
     def assert_unmet(self, readiness, message, words):
         self.wait_for_condition(readiness, message, lambda condition: not condition.is_met and words in condition.message)
 
+    def answer(self, component, name, message, is_so):
+        """The answer to a command beside the grid `message`, which may come after it: asked for until it is so."""
+        call = component.service("external_command/" + name, SERVICES[name])
+        answers = []
+
+        def is_answered():
+            self.publish_now(message)
+            answers.append(call(commands()[name]).status)
+            return is_so(answers[-1])
+        support.wait_until(is_answered, lambda: "%s; the last answer: %s" % (name, support.describe(answers[-1])))
+        return answers[-1]
+
     def assert_refused(self, component, message, words):
-        for name, command in commands().items():
+        for name in SERVICES:
             with self.subTest(name=name, words=words):
-                self.publish_now(message)
-                status = component.service("external_command/" + name, SERVICES[name])(command).status
+                status = self.answer(component, name, message, lambda status: words in status.message)
                 self.assertEqual(status.error_code, CommandStatus.NOT_READY, support.describe(status))
                 self.assertIn("the obstacle grid on grid cannot be used", status.message)
-                self.assertIn(words, status.message)
 
     def assert_taken(self, component, message):
-        for name, command in commands().items():
+        for name in SERVICES:
             with self.subTest(name=name):
-                self.publish_now(message)
-                status = component.service("external_command/" + name, SERVICES[name])(command).status
-                self.assertEqual(status.status, CommandStatus.FINISHED, support.describe(status))
+                self.answer(component, name, message, lambda status: status.status == CommandStatus.FINISHED)
 
 
 if __name__ == "__main__":

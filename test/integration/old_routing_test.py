@@ -6,7 +6,6 @@ import os
 import re
 import sys
 import types
-import unittest
 
 import rosgraph
 import rospy
@@ -45,7 +44,7 @@ def by_pose(point, **fields):
     return LaneWaypoint(pose=point, **fields)
 
 
-class OldRoutingTest(unittest.TestCase):
+class OldRoutingTest(support.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.requests = publisher("/apollo/routing_request", RoutingRequest)

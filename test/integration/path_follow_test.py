@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Following a given path without any map: by the service, and by nav_msgs/Path on a topic."""
 import math
-import unittest
 
 import rospy
 import rostest
@@ -49,7 +48,7 @@ def about_the_path(answer):
     return [warning for warning in answer.report.warnings if "from the vehicle" not in warning]
 
 
-class PathFollowTest(unittest.TestCase):
+class PathFollowTest(support.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.vehicle = Vehicle()

@@ -6,7 +6,6 @@ import io
 import os
 import sys
 import threading
-import unittest
 
 import rospkg
 import rospy
@@ -26,7 +25,7 @@ FAR = {"x": 480.0, "y": 338.25}
 DEADLINE = 120.0  # [s]
 
 
-class PythonClientTest(unittest.TestCase):
+class PythonClientTest(support.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.client = CommandClient("apollo", timeout=support.DEADLINE)

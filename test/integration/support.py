@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the tests of the running system share: deadlines instead of sleeps."""
+import contextlib
 import threading
 import time
+import traceback
+import unittest
 import xmlrpc.client
 
 import rosgraph
@@ -12,6 +15,30 @@ from external_command.msg import CommandStatus
 from external_command.srv import GetCommandStatus
 
 DEADLINE = 30.0  # [s] of wall time; what is late by that much does not come
+
+
+class TestCase(unittest.TestCase):
+    """As unittest's, but a failed subTest fails its test in words: rosunit counts one, and shows its test as passed."""
+
+    def __init__(self, *args, **kwargs):
+        super().__init__(*args, **kwargs)
+        self._failed_parts = []
+
+    @contextlib.contextmanager
+    def subTest(self, msg=None, **params):
+        try:
+            yield
+        except unittest.SkipTest:
+            raise
+        except Exception:
+            if not self._failed_parts:
+                self.addCleanup(self._tell_failed_parts)
+            words = ([] if msg is None else [str(msg)]) + ["%s=%r" % item for item in params.items()]
+            self._failed_parts.append("[%s]\n%s" % (", ".join(words), traceback.format_exc()))
+
+    def _tell_failed_parts(self):
+        parts, self._failed_parts = self._failed_parts, []
+        self.fail("failed in %d subTests:\n%s" % (len(parts), "\n".join(parts)))
 
 
 def service(name, service_type):
@@ -40,11 +67,14 @@ def pid_of(node):
 
 
 def wait_until(condition, what, deadline=DEADLINE):
-    """Waits for `condition()` to be true; an AssertionError that says `what` did not happen where it stays false."""
+    """Waits for `condition()` to be true; an AssertionError that says `what` did not happen where it stays false.
+
+    `what`: words, or a function that has them at the end.
+    """
     end = time.monotonic() + deadline
     while not condition():
         if time.monotonic() > end:
-            raise AssertionError("not within %.0f s: %s" % (deadline, what))
+            raise AssertionError("not within %.0f s: %s" % (deadline, what() if callable(what) else what))
         time.sleep(0.01)
 
 

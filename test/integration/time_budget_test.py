@@ -4,7 +4,6 @@
 import math
 import os
 import time
-import unittest
 
 import rospkg
 import rospy
@@ -35,7 +34,7 @@ def component(budget, **improvement):
         "zone_cover_command_processor": zone})
 
 
-class TimeBudgetTest(unittest.TestCase):
+class TimeBudgetTest(support.TestCase):
     def setUp(self):
         self.vehicle = Localization(*IN_THE_YARD)
         self.vehicle.start()

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Whatever is published on /tf and /tf_static: the process goes on, and good transforms count again at once."""
-import unittest
 
 import rospy
 import rostest
@@ -18,7 +17,7 @@ LATEST = rospy.Time(4294967295, 999999999)
 NAN = float("nan")
 
 
-class TransformsTest(unittest.TestCase):
+class TransformsTest(support.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.localization = Localization(100.0, 195.0)

@@ -123,6 +123,12 @@ class LintTest(unittest.TestCase):
                 rosdep_key = "python3-" + {"google": "protobuf"}.get(name, name)
                 self.assertTrue(known & {name, rosdep_key}, f"{name} is in none of {', '.join(tags)}")
 
+    def test_subtests_of_rostests_are_told_of(self):
+        """rosunit shows none that failed; support.TestCase does."""
+        silent = [os.path.relpath(path, ROOT) for path in files("test/integration", endings=("_test.py",))
+                  if "self.subTest(" in read(path) and "(unittest.TestCase)" in read(path)]
+        self.assertEqual([], silent)
+
     def test_scripts_are_executable_and_parse(self):
         for path in scripts() + files("scripts/lib", endings=(".sh", ".py")):
             with self.subTest(os.path.relpath(path, ROOT)):
