@@ -220,10 +220,5 @@ int run(const std::vector<std::string>& words) {
 }  // namespace external_command
 
 int main(int argc, char** argv) {
-  try {
-    return external_command::benchmark::run({argv + 1, argv + argc});
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "benchmark_coverage: %s\nSee benchmark_coverage --help.\n", error.what());
-    return 2;
-  }
+  return external_command::benchmark::runMain("benchmark_coverage", argc, argv, external_command::benchmark::run);
 }

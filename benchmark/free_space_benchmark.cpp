@@ -240,10 +240,5 @@ int run(const std::vector<std::string>& words) {
 }  // namespace external_command
 
 int main(int argc, char** argv) {
-  try {
-    return external_command::benchmark::run({argv + 1, argv + argc});
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "benchmark_free_space: %s\nSee benchmark_free_space --help.\n", error.what());
-    return 2;
-  }
+  return external_command::benchmark::runMain("benchmark_free_space", argc, argv, external_command::benchmark::run);
 }

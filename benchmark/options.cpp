@@ -2,6 +2,8 @@
 #include "options.h"
 
 #include <cmath>
+#include <cstdio>
+#include <exception>
 
 #include "external_command/core/text.h"
 
@@ -42,6 +44,15 @@ bool parse(const std::vector<std::string>& words, po::options_description option
   if (values.count("help") > 0) return false;
   po::notify(values);
   return true;
+}
+
+int runMain(const char* name, int argc, char** argv, int (*run)(const std::vector<std::string>& words)) {
+  try {
+    return run({argv + 1, argv + argc});
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\nSee %s --help.\n", name, error.what(), name);
+    return 2;
+  }
 }
 
 }  // namespace benchmark

@@ -22,5 +22,9 @@ boost::program_options::options_description noOptions();
 bool parse(const std::vector<std::string>& words, boost::program_options::options_description options,
            std::vector<std::string>* inputs);
 
+/// main() of the program `name`: what `run` makes of the words behind that; 2 where it throws, with a line that says
+/// why.
+int runMain(const char* name, int argc, char** argv, int (*run)(const std::vector<std::string>& words));
+
 }  // namespace benchmark
 }  // namespace external_command

@@ -13,6 +13,7 @@
 #include "free_space/ompl/first_path.h"
 #include "free_space/search/narrow_passage.h"
 #include "free_space/search/no_way.h"
+#include "free_space/search/search_box.h"
 #include "motion/collision_probe.h"
 #include "path_finisher.h"
 #include "planner_words.h"
@@ -164,25 +165,11 @@ class Planning {
     return junctions;
   }
 
-  /// What the search covers: all obstacles and room to turn around them.
-  BoundingBox areaOf(const Query& query) const {
-    BoundingBox box{query.start.position().cwiseMin(query.goal.position()),
-                    query.start.position().cwiseMax(query.goal.position())};
-    if (index_.extent().min.x() <= index_.extent().max.x()) {
-      box.min = box.min.cwiseMin(index_.extent().min);
-      box.max = box.max.cwiseMax(index_.extent().max);
-    }
-    const double room = 4.0 * scene_.radius + vehicle_.length();
-    box.min = (box.min - Point2d(room, room)).cwiseMax(index_.axleBounds().min);
-    box.max = (box.max + Point2d(room, room)).cwiseMin(index_.axleBounds().max);
-    return box;
-  }
-
   std::vector<FirstPath> firstPaths(const Query& query, std::size_t steps) const {
     const FirstPathRequest request{params_.planner, steps, params_.seed};
     // the search alone is for callers that only want to know whether there is a way
-    if (params_.planner == "portfolio") return findFirstPaths(scene_, query, areaOf(query), request, stop_);
-    return {findFirstPath(scene_, query, areaOf(query), request, stop_)};
+    if (params_.planner == "portfolio") return findFirstPaths(scene_, query, searchArea(scene_, query), request, stop_);
+    return {findFirstPath(scene_, query, searchArea(scene_, query), request, stop_)};
   }
 
   /// The cheapest of the approaches' first paths. With several of them, none may use up the time alone: the own search
@@ -224,7 +211,7 @@ class Planning {
     const std::string none = "the finest search found none" + whatIsNear();
     if (params_.planner != "portfolio") return none;
     const Query& query = approaches_[0].query;
-    const BoundingBox area = areaOf(query);
+    const BoundingBox area = searchArea(scene_, query);
     const auto stop = [this] { return stop_.isReached(); };
     if (!no_way) {
       const DistanceMap to_start(index_, area, query.start), to_goal(index_, area, query.goal);
@@ -284,7 +271,7 @@ class Planning {
     const Query& query = first.approach->query;
     const auto improve = [&](unsigned thread) {
       WorkBudget budget(params_.improve_iterations > 0 ? params_.improve_iterations : kUnlimited, stop);
-      return AnytimeImprover(scene_, cost_, query, areaOf(query), params_.seed + 7919 * thread)
+      return AnytimeImprover(scene_, cost_, query, searchArea(scene_, query), params_.seed + 7919 * thread)
           .improve(first.arcs, &budget);
     };
     std::vector<std::future<Arcs>> others;

@@ -79,12 +79,11 @@ FirstPath findFirstPath(const Scene& scene, const Query& query, const BoundingBo
   const ob::PlannerStatus status = planner->solve(stopped);
   // An approximate solution is none.
   if (status != ob::PlannerStatus::EXACT_SOLUTION) {
-    if (!own) return {};
-    return {own->outcome(), {}, own->noWay()};
+    return own ? own->found() : FirstPath{};
   }
   og::PathGeometric path = *problem->getSolutionPath()->as<og::PathGeometric>();
   if (!is_own) SeededSimplifier(space, request.seed).simplify(path, stopped);
-  return {TwoWaySearch::Outcome::kFound, arcsOf(path, scene.radius), std::nullopt};
+  return {TwoWaySearch::Outcome::kFound, arcsOf(path, scene.radius), {}};
 }
 
 }  // namespace external_command

@@ -3,30 +3,19 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "free_space/search/no_way.h"
-#include "free_space/search/two_way_search.h"
+#include "free_space/search/staged_search.h"
 #include "free_space/stop_condition.h"
 
 namespace external_command {
-
-/// Steps that find the first path nearly always. With more allowed, the own planner goes on by other means.
-constexpr std::size_t kFirstLookSteps = 4000;
 
 /// How to look for a first path, and for how long.
 struct FirstPathRequest {
   std::string planner;  ///< see FreeSpaceParams
   std::size_t max_steps = 0;
   std::uint64_t seed = 1;
-};
-
-struct FirstPath {
-  TwoWaySearch::Outcome outcome = TwoWaySearch::Outcome::kStopped;
-  Arcs arcs;
-  std::optional<NoWay> no_way;  ///< see HybridAStar
 };
 
 /// Names of the OMPL planners that findFirstPath() knows, besides our own.
