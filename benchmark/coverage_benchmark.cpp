@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
-#include <iostream>
 #include <iterator>
 #include <memory>
 #include <set>
@@ -197,11 +196,7 @@ void print(const Summary& summary) {
 
 int run(const std::vector<std::string>& words) {
   Options options;
-  const po::options_description known = describe(&options);
-  if (!parse(words, known, &options.inputs)) {
-    std::cout << kUsage << known << kDetails;
-    return 0;
-  }
+  if (!parseOrHelp(words, describe(&options), {kUsage, kDetails}, &options.inputs)) return 0;
   options.params.validate();
   makeFolders({options.fields, options.paths, options.drawings});
   Summary summary;

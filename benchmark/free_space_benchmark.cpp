@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
-#include <iostream>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -213,11 +212,7 @@ void print(const Summary& summary) {
 
 int run(const std::vector<std::string>& words) {
   Options options;
-  const po::options_description known = describe(&options);
-  if (!parse(words, known, &options.inputs)) {
-    std::cout << kUsage << known << kDetails;
-    return 0;
-  }
+  if (!parseOrHelp(words, describe(&options), {kUsage, kDetails}, &options.inputs)) return 0;
   complete(&options);
   options.params.validate();
   makeFolders({options.cases, options.paths, options.drawings});

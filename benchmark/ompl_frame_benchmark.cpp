@@ -2,7 +2,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <iostream>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -120,11 +119,7 @@ void runCase(const ParkingCase& parking_case, const Options& options, Summary* s
 
 int run(const std::vector<std::string>& words) {
   Options options;
-  const po::options_description known = describe(&options);
-  if (!parse(words, known, &options.inputs)) {
-    std::cout << kUsage << known << kDetails;
-    return 0;
-  }
+  if (!parseOrHelp(words, describe(&options), {kUsage, kDetails}, &options.inputs)) return 0;
   if (options.inputs.empty()) throw std::invalid_argument("give a folder or files of cases");
   const auto silence = PlannerLog::acquire({});
   Summary summary;

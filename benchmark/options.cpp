@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 
 #include "external_command/core/text.h"
 
@@ -44,6 +45,13 @@ bool parse(const std::vector<std::string>& words, po::options_description option
   if (values.count("help") > 0) return false;
   po::notify(values);
   return true;
+}
+
+bool parseOrHelp(const std::vector<std::string>& words, const po::options_description& options, const HelpText& help,
+                 std::vector<std::string>* inputs) {
+  if (parse(words, options, inputs)) return true;
+  std::cout << help.usage << options << help.details;
+  return false;
 }
 
 int runMain(const char* name, int argc, char** argv, int (*run)(const std::vector<std::string>& words)) {

@@ -22,6 +22,16 @@ boost::program_options::options_description noOptions();
 bool parse(const std::vector<std::string>& words, boost::program_options::options_description options,
            std::vector<std::string>* inputs);
 
+/// What --help prints before and after the list of options.
+struct HelpText {
+  const char* usage;
+  const char* details;
+};
+
+/// As parse(), and prints the help where it is asked for.
+bool parseOrHelp(const std::vector<std::string>& words, const boost::program_options::options_description& options,
+                 const HelpText& help, std::vector<std::string>* inputs);
+
 /// main() of the program `name`: what `run` makes of the words behind that; 2 where it throws, with a line that says
 /// why.
 int runMain(const char* name, int argc, char** argv, int (*run)(const std::vector<std::string>& words));
