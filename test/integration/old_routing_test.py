@@ -11,7 +11,6 @@ import rosgraph
 import rospy
 import rostest
 from geometry_msgs.msg import Point, PoseStamped
-from rosgraph_msgs.msg import Log
 
 import support
 from external_command.msg import (CommandStatus, DeadEndInfo, LaneFollowCommand, LaneSegment, LaneWaypoint,
@@ -60,7 +59,7 @@ class OldRoutingTest(support.TestCase):
         self.responses.close()
 
     def test_what_a_command_is_warned_of_is_in_the_log(self):
-        log = support.Collector("/rosout", Log, connected=False)
+        log = support.log_of("/apollo/external_command")
         self.planned(is_start_pose_set=True, waypoint=[by_pose(EAST_END), by_pose(FAR_AWAY)])
         line = log.wait_for(lambda m: "the path begins at (300.00, 194.75" in m.msg, "the warning").msg
         self.assertIn("is_start_pose_set", line)

@@ -8,7 +8,6 @@ import rostest
 import tf2_ros
 from geometry_msgs.msg import Point, PoseStamped, TransformStamped
 from nav_msgs.msg import Path
-from rosgraph_msgs.msg import Log
 
 import support
 from external_command import any_message
@@ -202,7 +201,7 @@ class PathFollowTest(support.TestCase):
         support.wait_for_status(entry.reply.command_id, CommandStatus.FINISHED)
 
     def test_names_the_fields_of_the_message_in_what_it_warns_of(self):
-        log = support.Collector("/rosout", Log, connected=False)
+        log = support.log_of("/apollo/external_command")
         corner = points((0.0, 0.0), (30.0, 0.0), (30.0, 30.0))
         for way, fields, words in (
                 (corner, {}, "the path has a corner of 1.57 rad at poses[1], (30.00, 0.00)"),

@@ -9,6 +9,7 @@ import xmlrpc.client
 
 import rosgraph
 import rospy
+from rosgraph_msgs.msg import Log
 
 from external_command.client import STATUS_NAMES, NotReady, describe  # noqa: F401  (tests call support.describe)
 from external_command.msg import CommandStatus
@@ -120,5 +121,18 @@ class Collector:
         wait_until(lambda: any(matches(message) for message in self.messages), what)
         return next(message for message in self.messages if matches(message))
 
+    def hears(self, node):
+        """Whether the connection to the publisher `node` is made."""
+        heads = [getattr(link, "header", None) or {} for link in self._subscriber.impl.connections]
+        return any(head.get("callerid") == node for head in heads)
+
     def close(self):
         self._subscriber.unregister()
+
+
+def log_of(node):
+    """A Collector of what the node, and everybody else, writes to the log from now on."""
+    log = Collector("/rosout", Log, connected=False)
+    wait_until(lambda: log.hears(node), "the log of " + node)
+    time.sleep(0.02)  # as above
+    return log
