@@ -130,11 +130,7 @@ bool CommandRegistry::report(const CommandStatus& status, const std::string& pro
     say(serial, record);
     return true;
   }
-  CommandStatus end = status;
-  if (status.status == CommandStatus::ERROR && status.error_code == CommandStatus::OK) {
-    end.error_code = CommandStatus::REFUSED_BY_VEHICLE;
-  }
-  change(serial, record, end);
+  change(serial, record, endFromReport(status.command_id, status));
   return true;
 }
 

@@ -35,6 +35,18 @@ CommandStatus statusFrom(const std::exception_ptr& error, std::int64_t command_i
   }
 }
 
+CommandStatus endFromReport(std::int64_t command_id, const CommandStatus& report) {
+  if (report.status == CommandStatus::FINISHED) {
+    return makeStatus(command_id, CommandStatus::FINISHED, ErrorCode::kOk, report.message);
+  }
+  const bool is_known = report.error_code <= CommandStatus::INTERNAL_ERROR;
+  const bool tells_why = is_known && report.error_code != CommandStatus::OK;
+  const ErrorCode code = tells_why ? static_cast<ErrorCode>(report.error_code) : ErrorCode::kRefusedByVehicle;
+  const std::string own_code = text("the planner's error_code is ", report.error_code);
+  const std::string message = report.message.empty() ? own_code : text(own_code, ": ", report.message);
+  return makeStatus(command_id, CommandStatus::ERROR, code, is_known ? report.message : message);
+}
+
 bool isOlder(const ros::Time& stamp, const ros::Time& sent_at, double skew) {
   if (stamp.isZero() || ros::Time::now() < sent_at) return false;
   return stamp.toSec() < sent_at.toSec() - skew;  // a ros::Duration holds 68 years only

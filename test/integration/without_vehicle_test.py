@@ -195,6 +195,30 @@ class WithoutVehicleTest(unittest.TestCase):
         self.repeat_until_ended(stop, stand, CommandStatus.FINISHED)
         states.publish(PlanningState(scenario="IDLE"))
 
+    def test_passes_on_codes_of_the_table_and_words_that_can_be_read_of_a_planner_that_refuses_an_action(self):
+        reports = rospy.Publisher("planning/command_status", CommandStatus, queue_size=10)
+        support.wait_until(lambda: reports.get_num_connections() > 0, "somebody listens to the planner")
+        told = support.Collector("external_command/status", CommandStatus)
+        for given, code in ((0, CommandStatus.REFUSED_BY_VEHICLE), (CommandStatus.NO_PATH, CommandStatus.NO_PATH),
+                            (16, CommandStatus.REFUSED_BY_VEHICLE), (65535, CommandStatus.REFUSED_BY_VEHICLE)):
+            report = CommandStatus(command_id=act(ActionCommand.FOLLOW).command_id, status=CommandStatus.ERROR,
+                                   error_code=given, message="a wall\n\x1b[2J" + 100000 * "!")
+            report.header.frame_id = "anything"
+            end = self.told_after(reports, report, told)
+            self.assertEqual(end.error_code, code, support.describe(end)[:200])
+            self.assertIn("a wall\\x0a\\x1b[2J", end.message)
+            self.assertEqual("error_code is %d" % given in end.message, given > CommandStatus.INTERNAL_ERROR)
+            self.assertLess(len(end.message), 3000)
+            self.assertEqual(end.header.frame_id, "")
+            self.assertGreater(end.header.stamp.to_sec(), 0.0)
+        told.close()
+        reports.unregister()
+
+    def told_after(self, reports, report, told):
+        """The end of its command, as the topic tells it."""
+        self.repeat_until_ended(report.command_id, lambda: reports.publish(report), CommandStatus.ERROR)
+        return told.wait_for(lambda m: (m.command_id, m.status) == (report.command_id, CommandStatus.ERROR), "its end")
+
     def repeat_until_ended(self, command_id, publish, wanted):
         def has_ended():
             publish()

@@ -57,6 +57,48 @@ TEST(Status, MakesAnyOtherExceptionAnInternalError) {
   EXPECT_EQ(statusOfThrown([] { throw 5; }).error_code, CommandStatus::INTERNAL_ERROR);
 }
 
+CommandStatus reported(std::uint8_t status, std::uint16_t error_code, const std::string& message) {
+  ros::Time::init();
+  CommandStatus report;
+  report.header.frame_id = "anything";
+  report.command_id = 3;
+  report.status = status;
+  report.error_code = error_code;
+  report.message = message;
+  return report;
+}
+
+TEST(EndFromReport, KeepsCodeAndMessageOfAnError) {
+  const auto end = endFromReport(5, reported(CommandStatus::ERROR, CommandStatus::NO_PATH, "a wall"));
+  EXPECT_EQ(end.command_id, 5);
+  EXPECT_EQ(end.status, CommandStatus::ERROR);
+  EXPECT_EQ(end.error_code, CommandStatus::NO_PATH);
+  EXPECT_EQ(end.message, "a wall");
+}
+
+TEST(EndFromReport, MakesNoCodeAndCodesOfThePlannersOwnOneThatProgramsKnow) {
+  for (const std::uint16_t code : {0, CommandStatus::INTERNAL_ERROR + 1, 65535}) {
+    const auto end = endFromReport(3, reported(CommandStatus::ERROR, code, "a wall"));
+    EXPECT_EQ(end.error_code, CommandStatus::REFUSED_BY_VEHICLE) << code;
+    EXPECT_NE(end.message.find("a wall"), std::string::npos) << end.message;
+    EXPECT_EQ(end.message.find(std::to_string(code)) != std::string::npos, code != 0) << end.message;
+  }
+  EXPECT_EQ(endFromReport(3, reported(CommandStatus::ERROR, 77, "")).message, "the planner's error_code is 77");
+}
+
+TEST(EndFromReport, HasNoErrorWhereTheCommandIsFinished) {
+  EXPECT_EQ(endFromReport(3, reported(CommandStatus::FINISHED, CommandStatus::NO_PATH, "")).error_code,
+            CommandStatus::OK);
+}
+
+TEST(EndFromReport, PassesOnWhatIsFitToBeShownAndItsOwnStamp) {
+  const auto end = endFromReport(3, reported(CommandStatus::ERROR, 0, "\x1b[2J\xff" + std::string(100000, 'x')));
+  EXPECT_LT(end.message.size(), 3000U);
+  EXPECT_EQ(end.message.rfind("\\x1b[2J\\xff", 0), 0U) << end.message;
+  EXPECT_EQ(end.header.frame_id, "");
+  EXPECT_FALSE(end.header.stamp.isZero());
+}
+
 TEST(Checks, AcceptWhatIsInRange) {
   EXPECT_NO_THROW(requireFinite(1.0, "x"));
   EXPECT_NO_THROW(requireNotNegative(0.0, "target_speed"));

@@ -18,6 +18,11 @@ CommandStatus makeStatus(std::int64_t command_id, std::uint8_t status, ErrorCode
 /// What `error` means for a command. The one place where exceptions become statuses.
 CommandStatus statusFrom(const std::exception_ptr& error, std::int64_t command_id);
 
+/// How `report`, of a planner, ends a command: with its message and error code, fit to be passed on. A code that is
+/// none of CommandStatus's becomes REFUSED_BY_VEHICLE, and is told in the message.
+/// @pre  report.status is FINISHED or ERROR.
+CommandStatus endFromReport(std::int64_t command_id, const CommandStatus& report);
+
 /// True where a report with `stamp` was made before `sent_at`, but for clocks that differ by `skew` [s]. A report
 /// without a stamp is as new as it is; where simulated time was set back since, stamps cannot be compared, and all
 /// count.

@@ -107,12 +107,7 @@ std::optional<CommandStatus> PendingActions::endOfHold(const Pending& pending) c
 
 std::optional<CommandStatus> PendingActions::afterReport(const CommandStatus& report, bool is_meant,
                                                          Pending* pending) const {
-  if (report.status == CommandStatus::ERROR && is_meant) {
-    CommandStatus status = report;
-    status.command_id = pending->command.id;
-    if (status.error_code == CommandStatus::OK) status.error_code = CommandStatus::REFUSED_BY_VEHICLE;
-    return status;
-  }
+  if (report.status == CommandStatus::ERROR && is_meant) return endFromReport(pending->command.id, report);
   if (report.status != CommandStatus::FINISHED) return std::nullopt;
   if (isHold(pending->action)) {
     pending->is_reported = pending->is_reported || is_meant || isShown(*pending);
