@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "external_command/ros/transform_store.h"
 
+#include <tf2/exceptions.h>
+
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -84,6 +86,21 @@ void TransformStore::tidy(ros::Time now, double arrival) {
 
 geometry_msgs::TransformStamped TransformStore::lookup(const std::string& target, const std::string& source) const {
   return buffer()->lookupTransform(target, source, ros::Time(0));
+}
+
+bool TransformStore::isCarried(const std::string& frame, const std::string& vehicle, const std::string& world) const {
+  const std::shared_ptr<tf2::BufferCore> tree = buffer();
+  std::string above = frame;
+  for (std::size_t depth = 0; depth <= kMaxDepth && above != world; ++depth) {
+    if (above == vehicle) return true;
+    const std::string below = above;
+    if (!tree->_getParent(below, ros::Time(0), above)) break;
+  }
+  try {
+    return tree->lookupTransform(vehicle, frame, ros::Time(0)).header.stamp.isZero();
+  } catch (const tf2::TransformException&) {
+    return false;
+  }
 }
 
 bool TransformStore::isFresh(const Edge& edge, double arrival) const {

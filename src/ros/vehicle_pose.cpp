@@ -92,7 +92,8 @@ double VehiclePose::heightOfFrame(const std::string& given) const {
 std::optional<geometry_msgs::Transform> VehiclePose::transformOf(const std::string& given) const {
   const std::string frame = frameId(given);
   if (frame.empty() || frame == map_frame_) return std::nullopt;
-  if (frame == base_frame_) get();  // throws where the vehicle's pose is missing or old
+  // Throws where the vehicle's pose is missing or old: tf2 would go on to place there what the vehicle carries.
+  if (feed_.store().isCarried(frame, base_frame_, map_frame_)) get();
   try {
     return feed_.store().lookup(map_frame_, frame).transform;
   } catch (const tf2::TransformException& error) {

@@ -5,12 +5,13 @@
 import rospy
 import rostest
 import tf2_ros
-from geometry_msgs.msg import Point, TransformStamped
+from geometry_msgs.msg import Point
 
 import support
 from external_command.msg import (CommandStatus, LaneFollowCommand, PathFollowCommand, PlanningCommand, Pose,
                                   PreciseParkingCommand, RoiPolygon, ValetParkingCommand, ZoneCoverCommand)
 from external_command.srv import LaneFollow, PathFollow, PreciseParking, ValetParking, ZoneCover
+from localization import transform
 
 EAST_END = Pose(x=300.0, y=195.0)
 
@@ -54,14 +55,9 @@ class NotReadyTest(support.TestCase):
         self.assertIn("nobody", status.message)
 
         broadcaster = tf2_ros.TransformBroadcaster()
-        transform = TransformStamped()
-        transform.header.frame_id, transform.child_frame_id = "map", "nobody"
-        transform.transform.translation.x, transform.transform.translation.y = 100.0, 195.0
-        transform.transform.rotation.w = 1.0
 
         def is_known():
-            transform.header.stamp = rospy.Time.now()
-            broadcaster.sendTransform(transform)
+            broadcaster.sendTransform(transform("map", "nobody", x=100.0, y=195.0))
             answer = lane_follow("without_pose", end_pose=EAST_END, dry_run=True)
             return answer.error_code != CommandStatus.NOT_READY
 
@@ -75,6 +71,28 @@ class NotReadyTest(support.TestCase):
         self.assertEqual(status.error_code, CommandStatus.NOT_READY, support.describe(status))
         self.assertIn("~max_pose_age", status.message)
         self.assertEqual(sent.messages, [])
+
+    def test_what_lies_in_a_frame_that_the_vehicle_carries_needs_its_pose(self):
+        broadcaster, fixed = tf2_ros.TransformBroadcaster(), tf2_ros.StaticTransformBroadcaster()
+        fixed.sendTransform([transform("nobody", "lidar", x=1.0), transform("map", "dock", x=50.0)])
+
+        def status_in(frame):
+            command = PathFollowCommand(way_point=[Pose(), Pose(x=10.0)], dry_run=True)
+            command.header.frame_id = frame
+            return path_follow("without_pose", command)
+
+        def are_known():
+            broadcaster.sendTransform([transform("map", "nobody", x=100.0, y=195.0), transform("lidar", "beam")])
+            return all(status_in(frame).status == CommandStatus.FINISHED for frame in ("lidar", "beam", "dock"))
+
+        support.wait_until(are_known, "the frames are known")
+        rospy.sleep(1.5)  # beyond ~max_pose_age
+        for frame in ("lidar", "beam"):
+            with self.subTest(frame):
+                status = status_in(frame)
+                self.assertEqual(status.error_code, CommandStatus.NOT_READY, support.describe(status))
+                self.assertIn("~max_pose_age", status.message)
+        self.assertEqual(status_in("dock").status, CommandStatus.FINISHED)
 
     def test_a_given_start_needs_no_vehicle(self):
         start = Pose(x=100.0, y=195.0, heading=0.0, has_heading=True)

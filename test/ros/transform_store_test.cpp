@@ -206,6 +206,34 @@ TEST_F(TransformStoreTest, RefusesAChainWithoutEnd) {
   EXPECT_DOUBLE_EQ(x(), x_);
 }
 
+TEST_F(TransformStoreTest, TellsWhatTheVehicleCarriesFromWhatItDrivesBy) {
+  const auto is_carried = [this](const std::string& frame) { return store_.isCarried(frame, "base_link", "map"); };
+  fix("map", "dock", 5.0);
+  fix("base_link", "lidar", 1.0);
+  move("lidar", "beam", 1.0);
+  EXPECT_TRUE(is_carried("lidar"));
+  drive(0.2);
+  move("lidar", "beam", 1.0);
+  for (const char* frame : {"base_link", "lidar", "beam"}) EXPECT_TRUE(is_carried(frame)) << frame;
+  for (const char* frame : {"map", "odom", "dock", "never seen", ""}) EXPECT_FALSE(is_carried(frame)) << frame;
+}
+
+TEST_F(TransformStoreTest, TellsThatTheVehicleCarriesTheAntennaByWhichItIsLocated) {
+  move("map", "antenna", 1.0);
+  fix("antenna", "base_link", -1.0);
+  fix("map", "dock", 5.0);
+  EXPECT_TRUE(store_.isCarried("antenna", "base_link", "map"));
+  EXPECT_FALSE(store_.isCarried("dock", "base_link", "map"));
+}
+
+TEST_F(TransformStoreTest, TellsWhatTheVehicleCarriesWhereTheMapLiesBelowIt) {
+  move("base_link", "map", 1.0);
+  fix("map", "dock", 5.0);
+  fix("base_link", "lidar", 1.0);
+  EXPECT_TRUE(store_.isCarried("lidar", "base_link", "map"));
+  EXPECT_FALSE(store_.isCarried("dock", "base_link", "map"));
+}
+
 TEST_F(TransformStoreTest, RecoversFromAnyTransformsWithinASecond) {
   std::mt19937 random(1);
   const auto choose = [&](int count) { return std::uniform_int_distribution<int>(0, count - 1)(random); };

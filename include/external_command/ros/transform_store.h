@@ -18,7 +18,7 @@ namespace external_command {
 class TransformStore {
  public:
   static constexpr double kFresh = 1.0;             ///< an edge of /tf that was not repeated for so long gives way [s]
-  static constexpr double kHandover = 2.0;            ///< a fixed edge waits so long for a moving one to end [s]
+  static constexpr double kHandover = 2.0;          ///< a fixed edge waits so long for a moving one to end [s]
   static constexpr int kInsists = 3;                ///< so many within kFresh displace a fixed edge
   static constexpr std::size_t kMaxFrames = 10000;  ///< frames at once
   static constexpr std::size_t kMaxDepth = 200;     ///< edges from a frame to the root
@@ -40,6 +40,9 @@ class TransformStore {
   /// Of the newest time at which the whole way between both frames is known; stamp 0 where all of it is static.
   /// @throws tf2::TransformException
   geometry_msgs::TransformStamped lookup(const std::string& target, const std::string& source) const;
+
+  /// True for a frame that goes where `vehicle` goes, which lies between it and `world`, or is fixed to it.
+  bool isCarried(const std::string& frame, const std::string& vehicle, const std::string& world) const;
 
   std::size_t frames() const { return edges_.size(); }
 

@@ -32,6 +32,7 @@ class VehiclePose {
   /// Pose of the frame `given` in `map_frame`; the identity for `map_frame` itself and for "". A slash before its name
   /// does not belong to it, see frameId().
   /// @throws InvalidRequest  tf does not know how to get from one to the other.
+  /// @throws NotReady        it is `base_frame`, or a frame that the vehicle carries, and get() throws.
   Pose2d ofFrame(const std::string& given) const;
 
   /// Height of the origin of that frame [m].
@@ -39,7 +40,7 @@ class VehiclePose {
   double heightOfFrame(const std::string& given) const;
 
  private:
-  /// nullopt for `map_frame_` itself. @throws InvalidRequest
+  /// nullopt for `map_frame_` itself. @throws  as ofFrame()
   std::optional<geometry_msgs::Transform> transformOf(const std::string& given) const;
 
   /// What tells of transforms that were refused, to be added to an error's text.
