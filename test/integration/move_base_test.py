@@ -206,6 +206,16 @@ class MoveBaseTest(unittest.TestCase):
         self.assertEqual(self.do(goal, parker)[0], GoalStatus.SUCCEEDED)
         self.assertLess(math.dist(self.vehicle.pose[:2], position(goal)), 0.6)
 
+    def test_what_a_goal_is_warned_of_is_in_the_log(self):
+        log = support.log_of("/apollo/external_command")
+        parker = actionlib.SimpleActionClient("park_base", MoveBaseAction)
+        self.assertTrue(parker.wait_for_server(rospy.Duration(support.DEADLINE)))
+        parker.send_goal(MoveBaseGoal(pose(START[0] + 20.0, START[1] + 3.0)))
+        line = log.wait_for(lambda m: "goal of %s became command" % rospy.get_name() in m.msg, "the warning").msg
+        self.assertIn("goal_distance_warning", line)
+        parker.cancel_goal()
+        log.close()
+
     def test_clients_that_find_out_the_type_by_the_topic_can_send_goals(self):
         """As axclient.py does."""
         names = dict({"external_command/" + name: action for name, action in ACTIONS.items()}, move_base=MoveBaseAction)

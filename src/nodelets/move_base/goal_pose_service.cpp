@@ -64,7 +64,8 @@ class GoalPoseServiceT : public GoalPoseService {
     if (!nh.serviceClient<Service>(name, false, header).call(service)) {
       throw InternalError(text("service ", name, " ended without an answer; see the component's log"));
     }
-    return {std::move(service.response.status), std::move(service.response.path)};
+    return {std::move(service.response.status), std::move(service.response.report.warnings),
+            std::move(service.response.path)};
   }
 };
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "external_command/CommandStatus.h"
 #include "external_command/PlannedPath.h"
@@ -28,6 +29,7 @@ class GoalPoseService {
 
   struct Answer {
     CommandStatus status;
+    std::vector<std::string> warnings;
     PlannedPath path;  ///< of a dry run
   };
 

@@ -179,8 +179,19 @@ CommandStatus MoveBaseAdapter::call(const Request& request) {
   goal.command_id = request.command_id;
   goal.pose = toGoal(request.arrived.target, "target_pose", uses_heading_);
   goal.has_heading = uses_heading_;
-  return service_->call(getNodeHandle(), goal, arrivalHeader(context().gate(), request.arrived.arrival, request.time))
-      .status;
+  const GoalPoseService::Answer answer =
+      service_->call(getNodeHandle(), goal, arrivalHeader(context().gate(), request.arrived.arrival, request.time));
+  if (!hasEnded(answer.status)) tellWarnings(request.arrived.caller, answer);
+  return answer.status;
+}
+
+/// move_base's feedback and result have no place for them.
+void MoveBaseAdapter::tellWarnings(const std::string& caller, const GoalPoseService::Answer& answer) {
+  if (answer.warnings.empty()) return;
+  std::string line =
+      text(getName(), ": goal of ", caller, " became command ", answer.status.command_id, ", which has warnings: ");
+  for (const std::string& warning : answer.warnings) line += (&warning == &answer.warnings[0] ? "" : "; ") + warning;
+  logLater(LogLevel::kWarn, warnings_, line);
 }
 
 nav_msgs::GetPlan::Response MoveBaseAdapter::makePlan(const nav_msgs::GetPlan::Request& request,

@@ -47,6 +47,7 @@ class MoveBaseAdapter : public CommandProcessor {
   void carryOutNext();
   CommandStatus carryOut(const Request& request);
   CommandStatus call(const Request& request);
+  void tellWarnings(const std::string& caller, const GoalPoseService::Answer& answer);
 
   /// On the executor of the goals.
   void tick();
@@ -84,7 +85,7 @@ class MoveBaseAdapter : public CommandProcessor {
   PlanLine plan_line_{kMostWaitingPlans};
   std::atomic<std::int64_t> plan_in_work_{0};  ///< the id of its dry run
   RefusalPace busy_pace_{1};
-  LogThrottle busy_log_{1.0};
+  LogThrottle busy_log_{1.0}, warnings_{0.05};
   /// One for the plan in work, for each that waits, and two that say "busy", of which one may pause.
   Executor plans_{ExecutorOptions{"the move_base adapter's executor of plans", kMostWaitingPlans + 3}};
   ros::ServiceServer make_plan_;
