@@ -10,7 +10,7 @@ import types
 import rosgraph
 import rospy
 import rostest
-from geometry_msgs.msg import Point, PoseStamped
+from geometry_msgs.msg import Point, PoseStamped, Quaternion
 
 import support
 from external_command.msg import (CommandStatus, DeadEndInfo, LaneFollowCommand, LaneSegment, LaneWaypoint,
@@ -212,6 +212,23 @@ class OldRoutingTest(support.TestCase):
         goal.header.frame_id = "no_such_frame"
         self._refused(self.goals, goal, CommandStatus.INVALID_REQUEST, "no_such_frame")
 
+    def test_a_goal_that_is_no_pose_is_refused_by_the_names_of_its_own_fields(self):
+        nan = float("nan")
+        for words, position, orientation in (
+                (["pose.position.y is nan"], Point(300.0, nan, 0.0), Quaternion(w=1.0)),
+                (["pose.orientation is (0, 0, nan, 1)", "no rotation"], EAST_END, Quaternion(z=nan, w=1.0)),
+                (["pose.orientation is (0, 0, 0, 1e+200)"], EAST_END, Quaternion(w=1e200)),
+                (["pose.orientation is (0, 0, 0, 1e-200)"], EAST_END, Quaternion(w=1e-200))):
+            with self.subTest(words):
+                goal = PoseStamped()
+                goal.pose.position, goal.pose.orientation = position, orientation
+                response = self._refused(self.goals, goal, CommandStatus.INVALID_REQUEST, *words)
+                self.assertNotIn("waypoint", response.error_message)
+
+    def test_a_goal_whose_orientation_nobody_filled_in_may_be_reached_with_any(self):
+        goal = PoseStamped()
+        goal.pose.position = EAST_END
+        self.assert_ends_at(self._command_after(lambda: self.goals.publish(goal)), EAST_END)
 
     def test_the_two_programs_of_the_page_make_the_vehicle_drive_the_same(self):
         before, after = re.findall(r"^```python\n(.*?)^```$", document.page("old_routing.md"), re.MULTILINE | re.DOTALL)

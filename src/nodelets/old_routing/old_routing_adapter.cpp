@@ -4,12 +4,15 @@
 #include <tf2/utils.h>
 
 #include <boost/make_shared.hpp>
+#include <cmath>
+#include <optional>
 
 #include "external_command/LaneFollow.h"
 #include "external_command/RoutingResponse.h"
 #include "external_command/ValetParking.h"
 #include "external_command/core/text.h"
 #include "external_command/ros/bounded_subscription.h"
+#include "external_command/ros/checks.h"
 #include "external_command/ros/request_arrival.h"
 #include "external_command/ros/status.h"
 
@@ -32,6 +35,26 @@ OldRoutingAdapter::Answer call(ros::NodeHandle& nh, const std::string& name, con
                         "; is the component running, with its processor in the list ~processors?"));
   }
   throw InternalError(text("service ", client.getService(), " ended without an answer; see the component's log"));
+}
+
+/// The heading of a goal; nullopt where nobody has filled it in.
+std::optional<double> headingOf(const geometry_msgs::Quaternion& q) {
+  const tf2::Quaternion rotation(q.x, q.y, q.z, q.w);
+  if (q.x == 0.0 && q.y == 0.0 && q.z == 0.0 && q.w == 0.0) return std::nullopt;
+  const double length = rotation.length2();
+  if (std::isfinite(length) && length > 1e-6) return tf2::getYaw(rotation);
+  throw InvalidRequest(text("pose.orientation is (", q.x, ", ", q.y, ", ", q.z, ", ", q.w,
+                            "), which is no rotation; w is 1 for a heading of 0, all are 0 where none is meant"));
+}
+
+LaneWaypoint toWaypoint(const geometry_msgs::Pose& goal) {
+  requireFinite(goal.position, "pose.position");
+  const std::optional<double> heading = headingOf(goal.orientation);
+  LaneWaypoint waypoint;
+  waypoint.pose = goal.position;
+  waypoint.has_heading = heading.has_value();
+  waypoint.heading = heading.value_or(0.0);
+  return waypoint;
 }
 
 }  // namespace
@@ -76,12 +99,11 @@ void OldRoutingAdapter::open() {
 void OldRoutingAdapter::takeGoal(const geometry_msgs::PoseStamped& goal) {
   const auto request = boost::make_shared<RoutingRequest>();
   request->header = goal.header;
-  LaneWaypoint end;
-  end.pose = goal.pose.position;
-  const auto& q = goal.pose.orientation;
-  end.has_heading = q.x != 0.0 || q.y != 0.0 || q.z != 0.0 || q.w != 0.0;
-  if (end.has_heading) end.heading = tf2::getYaw(tf2::Quaternion(q.x, q.y, q.z, q.w));
-  request->waypoint.push_back(end);
+  try {
+    request->waypoint.push_back(toWaypoint(goal.pose));
+  } catch (...) {
+    return refuse(*request, statusFrom(std::current_exception(), 0));
+  }
   take(request);
 }
 
